@@ -69,6 +69,13 @@ if(LASZIP_INCLUDE_DIR AND LASZIP_LIBRARY)
 endif()
 # Without it maps of plots are GeoJSON only.
 find_package(GDAL 3 QUIET)
+if(TARGET GDAL::GDAL)  # loaded when it is needed, by the name that Debian's package of it has, too: libgdal.so.32, libgdal32
+  get_target_property(library GDAL::GDAL LOCATION)
+  execute_process(COMMAND ${CMAKE_READELF} -d ${library} OUTPUT_VARIABLE facts COMMAND_ERROR_IS_FATAL ANY)
+  string(REGEX MATCH "SONAME[^[]*\\[([^]]+)" facts "${facts}")
+  set(PLOTSCAN_GDAL_LIBRARY ${CMAKE_MATCH_1})
+endif()
+pkg_check_modules(lzf REQUIRED IMPORTED_TARGET liblzf)
 pkg_check_modules(lz4 REQUIRED IMPORTED_TARGET liblz4)
 pkg_check_modules(zstd REQUIRED IMPORTED_TARGET libzstd)
 
@@ -77,11 +84,13 @@ find_path(RANDOM123_INCLUDE_DIR Random123/philox.h REQUIRED)
 add_library(random123 INTERFACE IMPORTED)
 target_include_directories(random123 SYSTEM INTERFACE ${RANDOM123_INCLUDE_DIR})
 
-# PCL's config hands out variables; behind one target its flags reach only what links it.
-# pcl_io finds VTK, whose config warns about packages that PCL does not need: hence QUIET.
+# PCL's config hands out variables; behind targets its flags reach only what links them. Its files are apart, for tests: they need VTK,
+# which takes a tenth of a second to load, and whose config warns about packages that PCL does not need (hence QUIET).
 find_package(PCL 1.12 QUIET REQUIRED COMPONENTS common io filters ml sample_consensus segmentation)
 add_library(pcl INTERFACE IMPORTED)
 target_include_directories(pcl SYSTEM INTERFACE ${PCL_INCLUDE_DIRS})
-target_link_libraries(pcl INTERFACE ${PCL_COMMON_LIBRARIES} ${PCL_IO_LIBRARIES}
-  ${PCL_FILTERS_LIBRARIES} ${PCL_SAMPLE_CONSENSUS_LIBRARIES} ${PCL_SEGMENTATION_LIBRARIES})
+target_link_libraries(pcl INTERFACE ${PCL_COMMON_LIBRARIES} ${PCL_FILTERS_LIBRARIES} ${PCL_SAMPLE_CONSENSUS_LIBRARIES}
+  ${PCL_SEGMENTATION_LIBRARIES})
 target_compile_definitions(pcl INTERFACE ${PCL_DEFINITIONS})
+add_library(pcl_files INTERFACE)
+target_link_libraries(pcl_files INTERFACE pcl ${PCL_IO_LIBRARIES})

@@ -59,7 +59,14 @@ foreach(component estimate simulate)
 endforeach()
 file(WRITE ${PROJECT_BINARY_DIR}/package/shlibs "${shlibs}")
 set(CPACK_DEBIAN_LIBRARY_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/package/shlibs ${PROJECT_BINARY_DIR}/package/triggers)
-set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS "plotscan-data ${same}")
+# GDAL is loaded when it is needed, so that CPack sees no dependency.
+set(recommended "plotscan-data ${same}")
+if(TARGET GDAL::GDAL)
+  string(REGEX REPLACE "\\.so\\." "" gdal ${PLOTSCAN_GDAL_LIBRARY})
+  set(CPACK_DEBIAN_PROGRAMS_PACKAGE_RECOMMENDS ${gdal})
+  string(APPEND recommended ", ${gdal}")
+endif()
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_RECOMMENDS ${recommended})
 # Python's compiled files come with the package and go with it.
 set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/debian/python/postinst
   ${PROJECT_SOURCE_DIR}/cmake/debian/python/prerm)

@@ -90,6 +90,18 @@ std::string attribute_of(const std::string& column) {
   return column == "row_number" || column == "col_number" ? "given_" + column : column;
 }
 
+// Plots are measured in cells of centimetres all over, so their area is what they cost.
+void require_plot_size(const fs::path& file, const PlotMap& map) {
+  for (std::size_t i = 0; i < map.plots.size(); ++i) {
+    const PlotBox& box = map.plots[i].box;
+    if (box.area_m2() <= kMostPlot_m2) continue;
+    throw InputError(file,
+                     "plot {} is {:.0f} x {:.0f} m; a plot has up to {:.0f} m2: "
+                     "is this the field's outline?",
+                     map.ids[i].text(), box.width_m, box.length_m, kMostPlot_m2);
+  }
+}
+
 }  // namespace
 
 NamedPlaces read_named_places(const fs::path& file, const std::optional<std::string>& id_property) {
@@ -122,22 +134,6 @@ NamedPlaces read_named_places(const fs::path& file, const std::optional<std::str
   }
   return named;
 }
-
-namespace {
-
-// Plots are measured in cells of centimetres all over, so their area is what they cost.
-void require_plot_size(const fs::path& file, const PlotMap& map) {
-  for (std::size_t i = 0; i < map.plots.size(); ++i) {
-    const PlotBox& box = map.plots[i].box;
-    if (box.area_m2() <= kMostPlot_m2) continue;
-    throw InputError(file,
-                     "plot {} is {:.0f} x {:.0f} m; a plot has up to {:.0f} m2: "
-                     "is this the field's outline?",
-                     map.ids[i].text(), box.width_m, box.length_m, kMostPlot_m2);
-  }
-}
-
-}  // namespace
 
 PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_m,
                       const std::optional<std::string>& id_property) {

@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include <pcl/io/lzf.h>
+#include <lzf.h>
 
 #include "core/error.h"
 
@@ -131,8 +131,8 @@ void CompressedPcdWriter::close() {
   std::vector<char> compressed(std::min<std::size_t>(columns.size() + columns.size() / 16 + 64,
                                                      std::numeric_limits<std::uint32_t>::max()));
   const unsigned int size =
-      pcl::lzfCompress(columns.data(), static_cast<unsigned int>(columns.size()), compressed.data(),
-                       static_cast<unsigned int>(compressed.size()));
+      lzf_compress(columns.data(), static_cast<unsigned int>(columns.size()), compressed.data(),
+                   static_cast<unsigned int>(compressed.size()));
   if (size == 0 && points > 0)
     throw InputError(path_, "the cloud cannot be compressed; write binary PCD");
   const std::array<std::uint32_t, 2> sizes = {size, static_cast<std::uint32_t>(columns.size())};

@@ -69,6 +69,10 @@ TEST_P(BadInput, GetsOneMessageAndLeavesNothing) {
                "y\nproperty float z\n"
                "element face 1\nproperty list uchar int vertex_indices\nend_header\n"
                "0 0 0\n1 0 0\n0 0 1\n3 0 1 7\n");
+  folder.write("map.gpkg", "x");
+#ifdef PLOTSCAN_GDAL_LIBRARY
+  folder.write("no_gdal/" PLOTSCAN_GDAL_LIBRARY, "x");
+#endif
   folder.write("tall.obj", "v 0 0 0\nv 1 0 0\nv 0 0 1000\nf 1 2 3\n");
   folder.write("latin.yaml", "name: M\xe4h\n");
   folder.write("latin.csv", "plot_id,name\n1,M\xe4h\n");
@@ -235,6 +239,17 @@ INSTANTIATE_TEST_SUITE_P(
         BadCommand{"lidarsim view index.ply -o page.pcd", "page.pcd: does not end in .html"},
         BadCommand{"estimator report estimate -o page.txt", "page.txt: does not end in .html"}),
     [](const auto& tested) { return "Command" + std::to_string(tested.index + 1); });
+
+#ifdef PLOTSCAN_GDAL_LIBRARY
+INSTANTIATE_TEST_SUITE_P(
+    Maps, BadInput,
+    ::testing::Values(BadCommand{"estimator run index.ply --boxes map.gpkg -o out",
+                                 "map.gpkg' not recognized as"},
+                      BadCommand{
+                          "LD_LIBRARY_PATH=no_gdal estimator run index.ply --boxes map.gpkg -o out",
+                          "ogr2ogr -f GeoJSON map.geojson map.gpkg makes a map that can"}),
+    [](const auto& tested) { return "Command" + std::to_string(tested.index + 1); });
+#endif
 
 #ifdef PLOTSCAN_HAVE_SDFORMAT
 INSTANTIATE_TEST_SUITE_P(

@@ -10,10 +10,9 @@
 #include <vector>
 
 #include <fmt/core.h>
-#include <gdal.h>
-#include <ogrsf_frmts.h>
 
 #include "core/geodesy.h"
+#include "estimate/internal/gdal.h"
 #endif
 
 #include "core/text.h"
@@ -26,6 +25,17 @@ bool is_vector_map(const fs::path& file) {
   return extension == ".gpkg" || extension == ".shp";
 }
 
+namespace {
+
+[[noreturn]] void fail_without_gdal(const fs::path& file, const std::string& why) {
+  throw InputError(file,
+                   "is a GeoPackage or shapefile, which cannot be read here: {}; "
+                   "ogr2ogr -f GeoJSON map.geojson {} makes a map that can",
+                   why, file.filename().string());
+}
+
+}  // namespace
+
 #ifdef PLOTSCAN_HAVE_GDAL
 namespace {
 
@@ -34,34 +44,44 @@ using nlohmann::json;
 // Keeps GDAL from printing its errors on stderr while this object lives.
 class QuietGdal {
  public:
-  QuietGdal() { CPLPushErrorHandler(CPLQuietErrorHandler); }
-  ~QuietGdal() { CPLPopErrorHandler(); }
+  QuietGdal() { GDAL(CPLPushErrorHandler)(GDAL(CPLQuietErrorHandler)); }
+  ~QuietGdal() { GDAL(CPLPopErrorHandler)(); }
   QuietGdal(const QuietGdal&) = delete;
   QuietGdal& operator=(const QuietGdal&) = delete;
 };
 
-std::unique_ptr<GDALDataset> open_map(const fs::path& file) {
+struct CloseMap {
+  void operator()(GDALDatasetH map) const { GDAL(GDALClose)(map); }
+};
+struct DestroyFeature {
+  void operator()(OGRFeatureH feature) const { GDAL(OGR_F_Destroy)(feature); }
+};
+using Map = std::unique_ptr<std::remove_pointer_t<GDALDatasetH>, CloseMap>;
+using Feature = std::unique_ptr<std::remove_pointer_t<OGRFeatureH>, DestroyFeature>;
+
+Map open_map(const fs::path& file) {
   require_file(file);
-  GDALAllRegister();
-  std::unique_ptr<GDALDataset> map(
-      GDALDataset::Open(file.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-  if (!map) throw InputError(file, std::string("cannot be read: ") + CPLGetLastErrorMsg());
+  GDAL(GDALAllRegister)();
+  constexpr unsigned kHow = GDAL_OF_VECTOR | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR;
+  Map map(GDAL(GDALOpenEx)(file.c_str(), kHow, nullptr, nullptr, nullptr));
+  if (!map) throw InputError(file, "cannot be read: {}", GDAL(CPLGetLastErrorMsg)());
   return map;
 }
 
 // A layer of unknown geometry type may hold polygons, too.
 bool may_be_polygons(OGRwkbGeometryType type) {
-  const OGRwkbGeometryType flat = wkbFlatten(type);
+  const OGRwkbGeometryType flat = GDAL(OGR_GT_Flatten)(type);
   return flat == wkbPolygon || flat == wkbMultiPolygon || flat == wkbUnknown;
 }
 
-OGRLayer& layer_of_plots(const fs::path& file, GDALDataset& map) {
-  std::vector<OGRLayer*> layers;
+OGRLayerH layer_of_plots(const fs::path& file, GDALDatasetH map) {
+  std::vector<OGRLayerH> layers;
   std::vector<std::string> names;
-  for (OGRLayer* layer : map.GetLayers()) {
-    if (!may_be_polygons(layer->GetGeomType())) continue;
+  for (int i = 0; i < GDAL(GDALDatasetGetLayerCount)(map); ++i) {
+    const OGRLayerH layer = GDAL(GDALDatasetGetLayer)(map, i);
+    if (!may_be_polygons(GDAL(OGR_L_GetGeomType)(layer))) continue;
     layers.push_back(layer);
-    names.emplace_back(layer->GetName());
+    names.emplace_back(GDAL(OGR_L_GetName)(layer));
   }
   if (layers.empty()) throw InputError(file, "has no layer of polygons");
   if (layers.size() > 1) {
@@ -69,19 +89,21 @@ OGRLayer& layer_of_plots(const fs::path& file, GDALDataset& map) {
         file, "has several layers of polygons: {}; save that of the plots as a file of its own",
         joined(names, ", "));
   }
-  return *layers.front();
+  return layers.front();
 }
 
 // The name for a member crs; "" of a local system.
-std::string crs_of(const fs::path& file, const OGRSpatialReference* system) {
-  if (system == nullptr || system->IsLocal()) return "";
-  const char* const node = system->IsGeographic() ? "GEOGCS" : "PROJCS";
-  const char* const authority = system->GetAuthorityName(node);
-  const char* const code = system->GetAuthorityCode(node);
+std::string crs_of(const fs::path& file, OGRSpatialReferenceH system) {
+  if (system == nullptr || GDAL(OSRIsLocal)(system) != 0) return "";
+  const bool geographic = GDAL(OSRIsGeographic)(system) != 0;
+  const char* const node = geographic ? "GEOGCS" : "PROJCS";
+  const char* const authority = GDAL(OSRGetAuthorityName)(system, node);
+  const char* const code = GDAL(OSRGetAuthorityCode)(system, node);
   const bool has_code = authority != nullptr && code != nullptr && authority == std::string("EPSG");
   const std::string epsg = has_code ? std::string("EPSG:") + code : "";
-  const std::string name = system->GetName() == nullptr ? "unnamed" : system->GetName();
-  if (system->IsGeographic() && !is_geographic(epsg)) {
+  const char* const given = GDAL(OSRGetName)(system);
+  const std::string name = given == nullptr ? "unnamed" : given;
+  if (geographic && !is_geographic(epsg)) {
     throw InputError(file,
                      "is in longitude and latitude of the system \"{}\"{}, which is not known "
                      "here; save it in the cloud's system",
@@ -90,52 +112,65 @@ std::string crs_of(const fs::path& file, const OGRSpatialReference* system) {
   return has_code ? std::string("urn:ogc:def:crs:EPSG::") + code : name;
 }
 
-json ring_of(const OGRLinearRing& ring) {
+json ring_of(OGRGeometryH ring) {
   json positions = json::array();
-  for (int i = 0; i < ring.getNumPoints(); ++i) positions.push_back({ring.getX(i), ring.getY(i)});
+  for (int i = 0; i < GDAL(OGR_G_GetPointCount)(ring); ++i)
+    positions.push_back({GDAL(OGR_G_GetX)(ring, i), GDAL(OGR_G_GetY)(ring, i)});
   return positions;
 }
 
-json rings_of(const OGRPolygon& polygon) {
-  json rings = json::array();
-  for (const OGRLinearRing* ring : polygon) rings.push_back(ring_of(*ring));
-  return rings;
-}
-
-json geometry_of(const OGRGeometry* geometry) {
-  if (geometry == nullptr || geometry->IsEmpty()) return nullptr;
-  if (wkbFlatten(geometry->getGeometryType()) == wkbPolygon)
-    return {{"type", "Polygon"}, {"coordinates", rings_of(*geometry->toPolygon())}};
-  if (wkbFlatten(geometry->getGeometryType()) != wkbMultiPolygon)
-    return {{"type", geometry->getGeometryName()}};
+// The list that `part_of` makes of the parts of a geometry.
+template <class PartOf>
+json parts_of(OGRGeometryH geometry, const PartOf& part_of) {
   json parts = json::array();
-  for (const OGRPolygon* polygon : *geometry->toMultiPolygon()) parts.push_back(rings_of(*polygon));
-  return {{"type", "MultiPolygon"}, {"coordinates", parts}};
+  for (int i = 0; i < GDAL(OGR_G_GetGeometryCount)(geometry); ++i)
+    parts.push_back(part_of(GDAL(OGR_G_GetGeometryRef)(geometry, i)));
+  return parts;
 }
 
-std::string date_of(const OGRFeature& feature, int field) {
+json rings_of(OGRGeometryH polygon) { return parts_of(polygon, ring_of); }
+
+json geometry_of(OGRGeometryH geometry) {
+  if (geometry == nullptr || GDAL(OGR_G_IsEmpty)(geometry) != 0) return nullptr;
+  switch (GDAL(OGR_GT_Flatten)(GDAL(OGR_G_GetGeometryType)(geometry))) {
+    case wkbPolygon:
+      return {{"type", "Polygon"}, {"coordinates", rings_of(geometry)}};
+    case wkbMultiPolygon:
+      return {{"type", "MultiPolygon"}, {"coordinates", parts_of(geometry, rings_of)}};
+    default:
+      return {{"type", GDAL(OGR_G_GetGeometryName)(geometry)}};
+  }
+}
+
+std::string date_of(OGRFeatureH feature, int field) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0, zone = 0;
-  feature.GetFieldAsDateTime(field, &year, &month, &day, &hour, &minute, &second, &zone);
+  GDAL(OGR_F_GetFieldAsDateTime)
+  (feature, field, &year, &month, &day, &hour, &minute, &second, &zone);
   return fmt::format("{:04}-{:02}-{:02}", year, month, day);
 }
 
-std::string field_text(const OGRFeature& feature, int field) {
-  std::string text = feature.GetFieldAsString(field);
-  if (CPLIsUTF8(text.c_str(), -1) != 0) return text;
-  throw InputError(std::string("its attribute \"") + feature.GetFieldDefnRef(field)->GetNameRef() +
+std::string name_of(OGRFeatureH feature, int field) {
+  return GDAL(OGR_Fld_GetNameRef)(GDAL(OGR_F_GetFieldDefnRef)(feature, field));
+}
+
+std::string field_text(OGRFeatureH feature, int field) {
+  std::string text = GDAL(OGR_F_GetFieldAsString)(feature, field);
+  if (GDAL(CPLIsUTF8)(text.c_str(), -1) != 0) return text;
+  throw InputError("its attribute \"" + name_of(feature, field) +
                    "\" has letters in another encoding than the file states; save it in UTF-8");
 }
 
-json field_value(const OGRFeature& feature, int field) {
-  if (!feature.IsFieldSetAndNotNull(field)) return nullptr;
-  const OGRFieldDefn& definition = *feature.GetFieldDefnRef(field);
-  switch (definition.GetType()) {
+json field_value(OGRFeatureH feature, int field) {
+  if (GDAL(OGR_F_IsFieldSetAndNotNull)(feature, field) == 0) return nullptr;
+  const OGRFieldDefnH definition = GDAL(OGR_F_GetFieldDefnRef)(feature, field);
+  switch (GDAL(OGR_Fld_GetType)(definition)) {
     case OFTInteger:
     case OFTInteger64:
-      if (definition.GetSubType() == OFSTBoolean) return feature.GetFieldAsInteger(field) != 0;
-      return feature.GetFieldAsInteger64(field);
+      if (GDAL(OGR_Fld_GetSubType)(definition) == OFSTBoolean)
+        return GDAL(OGR_F_GetFieldAsInteger)(feature, field) != 0;
+      return GDAL(OGR_F_GetFieldAsInteger64)(feature, field);
     case OFTReal:
-      return feature.GetFieldAsDouble(field);
+      return GDAL(OGR_F_GetFieldAsDouble)(feature, field);
     case OFTDate:
       return date_of(feature, field);
     default:
@@ -143,28 +178,31 @@ json field_value(const OGRFeature& feature, int field) {
   }
 }
 
-json feature_of(const OGRFeature& feature, const std::string& key) {
+json feature_of(OGRFeatureH feature, const std::string& key) {
   json properties = json::object();
-  if (!key.empty()) properties[key] = feature.GetFID();
-  for (int field = 0; field < feature.GetFieldCount(); ++field)
-    properties[feature.GetFieldDefnRef(field)->GetNameRef()] = field_value(feature, field);
+  if (!key.empty()) properties[key] = GDAL(OGR_F_GetFID)(feature);
+  for (int field = 0; field < GDAL(OGR_F_GetFieldCount)(feature); ++field)
+    properties[name_of(feature, field)] = field_value(feature, field);
   return {{"type", "Feature"},
-          {"geometry", geometry_of(feature.GetGeometryRef())},
+          {"geometry", geometry_of(GDAL(OGR_F_GetGeometryRef)(feature))},
           {"properties", properties}};
 }
 
 }  // namespace
 
 json read_vector_map(const fs::path& file) {
+  if (const std::string missing = gdal_missing(); !missing.empty())
+    fail_without_gdal(file, missing);
   const QuietGdal quiet;
-  const std::unique_ptr<GDALDataset> map = open_map(file);
-  OGRLayer& layer = layer_of_plots(file, *map);
+  const Map map = open_map(file);
+  const OGRLayerH layer = layer_of_plots(file, map.get());
   json document = {{"type", "FeatureCollection"}, {"features", json::array()}};
-  const std::string crs = crs_of(file, layer.GetSpatialRef());
+  const std::string crs = crs_of(file, GDAL(OGR_L_GetSpatialRef)(layer));
   if (!crs.empty()) document["crs"] = {{"type", "name"}, {"properties", {{"name", crs}}}};
-  const std::string key = layer.GetFIDColumn();
+  const std::string key = GDAL(OGR_L_GetFIDColumn)(layer);
   try {
-    for (const auto& feature : layer) document["features"].push_back(feature_of(*feature, key));
+    while (const Feature feature{GDAL(OGR_L_GetNextFeature)(layer)})
+      document["features"].push_back(feature_of(feature.get(), key));
   } catch (const InputError& error) {
     throw InputError(file, error.what());
   }
@@ -172,10 +210,7 @@ json read_vector_map(const fs::path& file) {
 }
 #else
 nlohmann::json read_vector_map(const fs::path& file) {
-  throw InputError(file,
-                   "is a GeoPackage or shapefile, and this build has no GDAL to read it with; "
-                   "ogr2ogr -f GeoJSON map.geojson {} makes a map that it reads",
-                   file.filename().string());
+  fail_without_gdal(file, "this build has no GDAL");
 }
 #endif
 

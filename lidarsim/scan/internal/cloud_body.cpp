@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include <Eigen/Core>
-#include <pcl/io/lzf.h>
+#include <lzf.h>
 
 #include "core/error.h"
 #include "scan/internal/cloud_layout.h"
@@ -101,7 +101,8 @@ std::vector<char> decompress(const std::filesystem::path& file, std::ifstream& i
   std::vector<char> compressed(sizes[0]);
   std::vector<char> body(sizes[1]);
   in.read(compressed.data(), static_cast<std::streamsize>(compressed.size()));
-  if (!in || pcl::lzfDecompress(compressed.data(), sizes[0], body.data(), sizes[1]) != sizes[1])
+  if (body.empty()) return body;
+  if (!in || lzf_decompress(compressed.data(), sizes[0], body.data(), sizes[1]) != sizes[1])
     throw InputError(file, "the compressed body is broken");
   return body;
 }
