@@ -31,6 +31,19 @@ void mark_rows(const Lattice& lattice, std::vector<bool>& marked) {
   }
 }
 
+// Marks the places that show no edge at one of the sides across r, where one in five shows clear
+// ones.
+void mark_edgeless(const Lattice& lattice, std::vector<bool>& marked) {
+  constexpr double kClear = 0.8;  // quantile
+  std::vector<double> least;
+  for (const Place& place : lattice.places)
+    least.push_back(std::ranges::min(r_contrasts_of(lattice, place)));
+  const double clear = quantile(least, kClear);
+  if (clear < kLeastUsual) return;
+  for (std::size_t i = 0; i < marked.size(); ++i)
+    if (least[i] < kLeastOfSide * clear) marked[i] = true;
+}
+
 }  // namespace
 
 std::vector<bool> without_edge(const Lattice& lattice) {
@@ -38,6 +51,13 @@ std::vector<bool> without_edge(const Lattice& lattice) {
   mark_rows(lattice, marked);
   if (lattice.aligned) mark_rows(lattice.turned(), marked);
   return marked;
+}
+
+std::size_t count_edgeless(const Lattice& lattice) {
+  std::vector<bool> edgeless(lattice.places.size(), false);
+  mark_edgeless(lattice, edgeless);
+  mark_edgeless(lattice.turned(), edgeless);
+  return static_cast<std::size_t>(std::ranges::count(edgeless, true));
 }
 
 }  // namespace plotscan::plots

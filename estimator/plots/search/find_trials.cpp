@@ -25,11 +25,18 @@ bool lies_outside(const Look& look, const std::vector<PlotBox>& area) {
   return 2 * outside > std::ssize(look.field.plots);
 }
 
+// Whether a trial leaves nothing of the field to others: boxes at whose sides canopy does not end
+// are cut out of it.
+bool leaves_nothing(const Look& one) {
+  constexpr std::size_t kCutOut = 3;  // of so many plots not one
+  return one.explained > kNearlyAll && kCutOut * one.edgeless <= one.field.plots.size();
+}
+
 // Whether one trial is all that shows. What is much lower counts little beside it: other looks show
 // that.
 bool is_all(const Looks& looks) {
   const Look& one = looks.best;
-  if (one.evidence == 0 || one.explained <= kNearlyAll || one.field.others_m2 > 0) return false;
+  if (one.evidence == 0 || one.field.others_m2 > 0 || !leaves_nothing(one)) return false;
   const std::vector<PlotBox> area = area_of(one.field.fit->layout);
   return std::ranges::none_of(looks.at_all, [&](const Look& look) {
     return look.field.plots.size() >= kLeastOfTrial && lies_outside(look, area);
@@ -46,14 +53,6 @@ bool lie_apart(const std::vector<SeenTrial>& trials) {
       });
     });
   });
-}
-
-// Whether the trial leaves nothing of the field to others: boxes at whose sides canopy does not end
-// are cut out of it.
-bool leaves_nothing(const Look& one) {
-  constexpr std::ptrdiff_t kCutOut = 3;  // of so many plots not one
-  const auto edgeless = std::ranges::count_if(one.field.plots, &FoundPlot::without_edge);
-  return one.explained > kNearlyAll && kCutOut * edgeless <= std::ssize(one.field.plots);
 }
 
 // Whether these explain the field better than one trial does. Parts of one trial, such as its outer
@@ -95,9 +94,10 @@ void leave_out_whole_crop(std::vector<PlotField>& trials) {
   if (trials.size() > 1 || field.plots.size() != 1) return;
   const PlotBox& box = field.plots.front().box;
   if (box.width_m * box.length_m <= kMostAlone_m2) return;
-  field.why_none =
-      fmt::format("a single rectangle of {:.1f} x {:.1f} m lies here, which may be a whole crop",
-                  box.width_m, box.length_m);
+  field.why_none = fmt::format(
+      "a single rectangle of {:.1f} x {:.1f} m lies here, which may be a whole crop; "
+      "if it is one plot, give --plots 1",
+      box.width_m, box.length_m);
   field.plots.clear();
 }
 

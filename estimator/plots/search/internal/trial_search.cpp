@@ -206,6 +206,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
     return look;
   }
   look.field.plots = plots_on(lattice, look.field.fit->layout, field_confidence(signs), hints);
+  look.edgeless = count_edgeless(lattice);
   look.may_be = look.field.plots.size();
   look.evidence = layout.evidence;
   return look;
@@ -310,7 +311,8 @@ class TrialSearch {
 
 double expected_plots(const Look& look) {
   if (look.evidence == 0) return 0;
-  return static_cast<double>(look.field.plots.size()) * field_confidence(*look.field.signs);
+  return static_cast<double>(look.field.plots.size() - look.edgeless) *
+         field_confidence(*look.field.signs);
 }
 
 Look look_once(const ScannedField& scanned) {

@@ -29,12 +29,13 @@ struct ScannedField {
 // What a look at a field shows: plots, or a layout that is refused, or nothing.
 struct Look {
   PlotField field;
-  double evidence = 0;     // of its plots; 0 where there are none
-  std::size_t may_be = 0;  // plots, refused ones too, if those may be a trial beside others
-  double explained = 0;    // share of all that stands on the field, in the plots and their gaps
+  double evidence = 0;       // of its plots; 0 where there are none
+  std::size_t may_be = 0;    // plots, refused ones too, if those may be a trial beside others
+  std::size_t edgeless = 0;  // of its plots: those at whose sides canopy does not end
+  double explained = 0;      // share of all that stands on the field, in the plots and their gaps
 };
 
-// The number of plots times the field's confidence; 0 without plots.
+// The number of plots that show edges, times the field's confidence; 0 without plots.
 double expected_plots(const Look& look);
 
 // Of what stands on a field: what is left is no trial.

@@ -3,11 +3,11 @@
 
 #include <limits>
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "core/statistics.h"
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {

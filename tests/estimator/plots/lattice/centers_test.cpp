@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/lattice/internal/centers.h"
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {

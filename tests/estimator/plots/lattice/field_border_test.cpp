@@ -7,9 +7,9 @@
 #include <set>
 #include <utility>
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
 
+#include "estimator/plots/known_trial.h"
 #include "plots/lattice/internal/place_canopy.h"
 
 namespace plotscan::plots {

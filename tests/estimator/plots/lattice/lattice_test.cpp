@@ -3,9 +3,10 @@
 
 #include <set>
 
-#include "estimator/plots/known_trial.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {

@@ -6,9 +6,10 @@
 #include <functional>
 #include <vector>
 
-#include "estimator/plots/known_trial.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {

@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "estimator/plots/known_trial.h"
 #include "plots/layout/internal/layout_criterion.h"
 
 namespace plotscan::plots {

@@ -4,11 +4,11 @@
 #include <iterator>
 #include <vector>
 
-#include "estimator/plots/trial_cloud.h"
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "estimator/plots/trial_cloud.h"
 #include "plots/search/find_trials.h"
 
 // What stands beside the plots of a field.

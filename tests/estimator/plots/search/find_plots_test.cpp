@@ -4,12 +4,12 @@
 #include <utility>
 #include <vector>
 
-#include "estimator/plots/trial_cloud.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "estimator/plots/trial_cloud.h"
 #include "plots/search/find_trials.h"
 #include "plots/signs/field_signs.h"
 

@@ -3,11 +3,11 @@
 
 #include <cmath>
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/plot_box.h"
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {

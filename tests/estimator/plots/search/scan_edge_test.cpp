@@ -3,9 +3,10 @@
 
 #include <cmath>
 
+#include <gtest/gtest.h>
+
 #include "estimator/plots/known_trial.h"
 #include "estimator/plots/trial_cloud.h"
-#include <gtest/gtest.h>
 
 namespace plotscan::plots {
 namespace {

@@ -3,10 +3,11 @@
 
 #include <cmath>
 
-#include "estimator/plots/known_trial.h"
-#include "estimator/plots/trial_cloud.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "estimator/plots/known_trial.h"
+#include "estimator/plots/trial_cloud.h"
 
 namespace plotscan::plots {
 namespace {

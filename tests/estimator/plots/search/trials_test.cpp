@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
+#include <cmath>
 #include <vector>
 
-#include "estimator/plots/trial_cloud.h"
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "estimator/plots/trial_cloud.h"
 #include "plots/search/find_trials.h"
 #include "plots/search/internal/trial_area.h"
 
@@ -48,6 +49,16 @@ std::vector<PlotBox> both() {
   return boxes;
 }
 
+// Scales what stands in the boxes.
+void grow(std::vector<Eigen::Vector3f>& points, const std::vector<PlotBox>& boxes, float factor) {
+  for (Eigen::Vector3f& point : points) {
+    const Eigen::Vector2d place = point.head<2>().cast<double>();
+    if (point.z() > 0.1F &&
+        std::ranges::any_of(boxes, [&](const PlotBox& box) { return box.contains(place); }))
+      point.z() *= factor;
+  }
+}
+
 // Each trial with its own plots, from the south-west on.
 void expect_both(const std::vector<PlotField>& trials) {
   ASSERT_EQ(trials.size(), 2u);
@@ -65,12 +76,7 @@ TEST(FindTrials, FindsTwoTrialsOfPlotsOfTwoSizes) {
 
 TEST(FindTrials, FindsATrialThatIsThreeTimesAsTallAsTheOther) {
   std::vector<Eigen::Vector3f> points = cloud_over(both());
-  const std::vector<PlotBox> tall = small_plots();
-  for (Eigen::Vector3f& point : points) {
-    const Eigen::Vector2d place = point.head<2>().cast<double>();
-    if (std::ranges::any_of(tall, [&](const PlotBox& box) { return box.contains(place); }))
-      point.z() *= 3;
-  }
+  grow(points, small_plots(), 3);
   expect_both(find_trials(points, 0.02, {}, 2));
 }
 
@@ -99,6 +105,30 @@ TEST(FindTrials, TellsTrialsOfNearlyEqualStepsApart) {
   ASSERT_EQ(trials.size(), 2u);
   expect_those(wide, trials[0], 0.85);
   expect_those(narrow, trials[1], 0.85);
+}
+
+// Plots of one length in lines that one lattice may explain, with gaps across some of its boxes.
+TEST(FindTrials, TellsThreeCropsSideBySideApart) {
+  const std::vector<PlotBox> wheat =
+      grid(2, 8, {.width_m = 1.5, .length_m = 6}, {1.4, 0.4}, {-7, -6.5});
+  const std::vector<PlotBox> soybean =
+      grid(2, 5, {.width_m = 2.4, .length_m = 6}, {1.4, 0.5}, {-7, 9.5});
+  const std::vector<PlotBox> canola =
+      grid(2, 8, {.width_m = 1.8, .length_m = 6}, {1.5, 0.6}, {10, 0});
+  std::vector<PlotBox> boxes = wheat;
+  boxes.insert(boxes.end(), soybean.begin(), soybean.end());
+  boxes.insert(boxes.end(), canola.begin(), canola.end());
+  const auto sown = [](const PlotBox& box, const Eigen::Vector2d& from_center) {
+    return box.width_m < 2 || std::abs(std::remainder(from_center.y(), 0.48)) < 0.16;
+  };
+  std::vector<Eigen::Vector3f> points = cloud_over(boxes, sown, 24, 23);
+  grow(points, canola, 1.6F);
+  grow(points, soybean, 0.75F);
+  const std::vector<PlotField> trials = find_trials(points, 0.02, {}, 2);
+  ASSERT_EQ(trials.size(), 3u);
+  expect_those(wheat, trials[0]);
+  expect_those(soybean, trials[1]);
+  expect_those(canola, trials[2]);
 }
 
 TEST(FindTrials, GivesTheSameForAnyOrderOfThePoints) {

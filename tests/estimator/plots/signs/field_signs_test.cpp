@@ -6,11 +6,11 @@
 #include <limits>
 #include <string>
 
-#include "estimator/plots/trial_cloud.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "estimator/plots/trial_cloud.h"
 #include "plots/search/find_trials.h"
 
 namespace plotscan::plots {

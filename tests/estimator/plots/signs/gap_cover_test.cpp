@@ -5,8 +5,9 @@
 #include <cmath>
 #include <functional>
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
+
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "plots/signs/sown_rows.h"
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
+
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {

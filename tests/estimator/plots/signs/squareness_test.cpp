@@ -3,8 +3,9 @@
 
 #include <cmath>
 
-#include "estimator/plots/known_trial.h"
 #include <gtest/gtest.h>
+
+#include "estimator/plots/known_trial.h"
 
 namespace plotscan::plots {
 namespace {
