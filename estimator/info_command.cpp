@@ -2,12 +2,12 @@
 #include <memory>
 #include <string>
 
-#include "cloud_options.h"
-#include "commands.h"
-#include "inspect/cloud_report.h"
 #include <fmt/core.h>
 
+#include "cloud_options.h"
+#include "commands.h"
 #include "core/text.h"
+#include "inspect/cloud_report.h"
 
 namespace plotscan {
 namespace {
@@ -19,15 +19,15 @@ void say_points(const Program& program, const scan::CloudFacts& facts) {
                             facts.not_finite);
   if (facts.marked > 0) left_out += fmt::format(", {} marked as withheld or noise", facts.marked);
   program.say("format     " + facts.format);
-  program.say(fmt::format("points     {}{}", facts.points, left_out));
+  program.say("points     {}{}", facts.points, left_out);
 }
 
 void say_extent(const Program& program, const scan::CloudFacts& facts) {
   const int digits = facts.system.zone ? 6 : 2;
   for (int axis = 0; axis < 3; ++axis) {
-    program.say(fmt::format("{:10} {} {:.{}f} to {:.{}f}", axis == 0 ? "extent" : "", "xyz"[axis],
-                            facts.bounds.min()[axis], axis < 2 ? digits : 2,
-                            facts.bounds.max()[axis], axis < 2 ? digits : 2));
+    program.say("{:10} {} {:.{}f} to {:.{}f}", axis == 0 ? "extent" : "", "xyz"[axis],
+                facts.bounds.min()[axis], axis < 2 ? digits : 2, facts.bounds.max()[axis],
+                axis < 2 ? digits : 2);
   }
 }
 
@@ -43,11 +43,11 @@ void say_system(const Program& program, const scan::CloudSystem& system, bool to
 
 void say_density(const Program& program, const cloud::FieldDensity& density) {
   const Eigen::Vector2d sides_m = cloud::sides_of(density.field);
-  program.say(fmt::format("field      {:.0f} x {:.0f} m around, {:.2f} ha scanned densely",
-                          sides_m.x(), sides_m.y(), density.area_m2 / 1e4));
-  program.say(fmt::format(
-      "density    {} points/m2 (median), {} in the thinnest 5 %, in squares of {} m",
-      cloud::density_text(density.median), cloud::density_text(density.least5), density.square_m));
+  program.say("field      {:.0f} x {:.0f} m around, {:.2f} ha scanned densely", sides_m.x(),
+              sides_m.y(), density.area_m2 / 1e4);
+  program.say("density    {} points/m2 (median), {} in the thinnest 5 %, in squares of {} m",
+              cloud::density_text(density.median), cloud::density_text(density.least5),
+              density.square_m);
 }
 
 // "1 62.5 %, 2 37.5 %"
@@ -70,8 +70,7 @@ void say_fields(const Program& program, const scan::CloudFacts& facts) {
   if (facts.utc) {
     program.say("time       " + format_utc((*facts.utc)[0]) + " to " + format_utc((*facts.utc)[1]));
   } else if (facts.time_s) {
-    program.say(
-        fmt::format("time       {:.3f} to {:.3f} s", (*facts.time_s)[0], (*facts.time_s)[1]));
+    program.say("time       {:.3f} to {:.3f} s", (*facts.time_s)[0], (*facts.time_s)[1]);
   }
 }
 
@@ -79,7 +78,7 @@ void say_verdict(const Program& program, const inspect::CloudReport& report) {
   const char* verdict = !report.obstacles.empty() ? "no"
                         : report.doubts.empty()   ? "yes"
                                                   : "perhaps";
-  program.say(fmt::format("plots      {}, as far as density and classes tell", verdict));
+  program.say("plots      {}, as far as density and classes tell", verdict);
   for (const std::string& why : report.obstacles) program.say("           " + why);
   for (const std::string& why : report.doubts) program.say("           " + why);
 }
@@ -88,7 +87,7 @@ void run_info(const Program& program, const CloudArguments& arguments) {
   CloudFiles cloud = cloud_of(arguments);
   cloud.files = cloud_files_of(cloud.files);
   const inspect::CloudReport report = inspect::inspect_cloud(cloud);
-  if (cloud.files.size() > 1) program.say(fmt::format("files      {}", cloud.files.size()));
+  if (cloud.files.size() > 1) program.say("files      {}", cloud.files.size());
   say_points(program, report.facts);
   say_extent(program, report.facts);
   say_system(program, report.facts.system, cloud.units.has_value());

@@ -4,9 +4,8 @@
 #include <map>
 #include <string>
 
-#include "methods/run.h"
-
 #include "core/program.h"
+#include "methods/run.h"
 
 namespace plotscan {
 

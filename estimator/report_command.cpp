@@ -2,10 +2,10 @@
 #include <filesystem>
 #include <memory>
 
-#include "cloud_options.h"
-#include "commands.h"
 #include <fmt/core.h>
 
+#include "cloud_options.h"
+#include "commands.h"
 #include "fieldpage/field_page.h"
 #include "report/shown_cloud.h"
 
@@ -33,8 +33,8 @@ void make_page(const Program& program, ReportArguments& arguments) {
                                                          1e-6 * static_cast<double>(summary.shown),
                                                          1e-6 * static_cast<double>(summary.read))
                                            : "";
-  program.say(fmt::format("{}: {} plots,{} {:.1f} MB", options.html.string(), summary.plots, points,
-                          1e-6 * static_cast<double>(bytes)));
+  program.say("{}: {} plots,{} {:.1f} MB", options.html.string(), summary.plots, points,
+              1e-6 * static_cast<double>(bytes));
   for (const std::string& note : summary.notes) program.say("note       " + note);
   if (!options.cloud) program.say("With --cloud it shows the points, too.");
   program.say("Open it in a browser; it needs no network.");

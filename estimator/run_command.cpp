@@ -3,15 +3,15 @@
 #include <string>
 #include <vector>
 
+#include <fmt/core.h>
+
 #include "cloud_options.h"
 #include "commands.h"
+#include "core/error.h"
+#include "core/stopwatch.h"
 #include "method_options.h"
 #include "methods/run.h"
 #include "say_estimate.h"
-#include <fmt/core.h>
-
-#include "core/error.h"
-#include "core/stopwatch.h"
 
 namespace plotscan {
 namespace {
@@ -72,8 +72,8 @@ void run_estimate(const Program& program, const RunArguments& arguments) {
   const double seconds = watch.seconds();
   const nlohmann::json summary = methods::height_summary(estimate);
   say_estimate(program, estimate, summary);
-  program.say(fmt::format("{} plots in {:.1f} s, written to {}", estimate.plots.size(), seconds,
-                          options.output.string()));
+  program.say("{} plots in {:.1f} s, written to {}", estimate.plots.size(), seconds,
+              options.output.string());
   if (options.csv) program.say("           and " + options.csv->string());
   program.result({{"output", options.output.string()},
                   {"plots", estimate.plots.size()},

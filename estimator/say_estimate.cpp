@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "cloud/field_density.h"
 #include <fmt/core.h>
 
+#include "cloud/field_density.h"
 #include "core/geodesy.h"
 #include "core/text.h"
 
@@ -43,9 +43,8 @@ std::string described(const std::string& crs) {
 void say_given(const Program& program, const estimate::Estimate& estimate) {
   const auto& given = estimate.diagnostics.boxes;
   if (!given) return;
-  program.say(fmt::format("boxes      {} plots given, {} {} to {}", estimate.plots.size(),
-                          estimate.id_property, estimate.plots.front().id.text(),
-                          estimate.plots.back().id.text()));
+  program.say("boxes      {} plots given, {} {} to {}", estimate.plots.size(), estimate.id_property,
+              estimate.plots.front().id.text(), estimate.plots.back().id.text());
   if (given->from_degrees) {
     program.say("           longitude and latitude of the map converted to " +
                 described(estimate.crs));
@@ -56,9 +55,9 @@ void say_given(const Program& program, const estimate::Estimate& estimate) {
 void say_named(const Program& program, const estimate::Estimate& estimate) {
   const auto& names = estimate.diagnostics.names;
   if (!names) return;
-  program.say(fmt::format("names      {} of {} named plots found, {} {} to {}",
-                          estimate.plots.size(), names->plots, estimate.id_property,
-                          estimate.plots.front().id.text(), estimate.plots.back().id.text()));
+  program.say("names      {} of {} named plots found, {} {} to {}", estimate.plots.size(),
+              names->plots, estimate.id_property, estimate.plots.front().id.text(),
+              estimate.plots.back().id.text());
   if (names->not_found.empty()) return;
   program.say("           not found: " + joined(names->not_found));
 }
@@ -71,10 +70,10 @@ void say_measured(const Program& program, const estimate::Estimate& estimate) {
     const std::string trial =
         agreed.trial > 0 ? fmt::format("trial {}: ", agreed.trial) : std::string();
     program.say(
-        fmt::format("measured   {}{} times {:.3f} +- {:.3f}, by {} plots, which scatter by "
-                    "{:.1f} cm about it",
-                    trial, agreed.height, agreed.factor, agreed.factor_sd, agreed.plots,
-                    100 * agreed.residual_m));
+        "measured   {}{} times {:.3f} +- {:.3f}, by {} plots, which scatter by "
+        "{:.1f} cm about it",
+        trial, agreed.height, agreed.factor, agreed.factor_sd, agreed.plots,
+        100 * agreed.residual_m);
   }
   if (measured->not_found.empty()) return;
   program.say("           measured, and not found: " + joined(measured->not_found));
@@ -83,17 +82,16 @@ void say_measured(const Program& program, const estimate::Estimate& estimate) {
 void say_points(const Program& program, const estimate::PointAccount& points, double unit_m) {
   program.say("points     " + text_of(points));
   const auto side = [&](int i) { return points.area_m[i] / unit_m; };
-  program.say(fmt::format("field      x {:.1f} to {:.1f}, y {:.1f} to {:.1f} ({})", side(0),
-                          side(2), side(1), side(3), unit_name(unit_m)));
+  program.say("field      x {:.1f} to {:.1f}, y {:.1f} to {:.1f} ({})", side(0), side(2), side(1),
+              side(3), unit_name(unit_m));
 }
 
 void say_ground(const Program& program, const estimate::GroundFacts& ground) {
   const double unknown = 100 * ground.unknown_share;
-  program.say(
-      fmt::format("ground     seen in {:.0f} % of {:.1f} m cells{}, noise {:.1f} cm",
-                  100 * ground.seen_share, ground.cell_m,
-                  unknown >= 0.5 ? fmt::format(", unknown in {:.0f} % of the grid", unknown) : "",
-                  100 * ground.noise_m));
+  program.say("ground     seen in {:.0f} % of {:.1f} m cells{}, noise {:.1f} cm",
+              100 * ground.seen_share, ground.cell_m,
+              unknown >= 0.5 ? fmt::format(", unknown in {:.0f} % of the grid", unknown) : "",
+              100 * ground.noise_m);
 }
 
 void say_how(const Program& program, const estimate::Diagnostics& diagnostics, double unit_m) {
@@ -117,16 +115,15 @@ void say_flags(const Program& program, const estimate::Estimate& estimate) {
   }
   for (const auto& [flag, ids] : ids_by_flag) {
     const std::string named = ids.size() <= kNamed ? " (" + joined(ids, ", ") + ")" : "";
-    program.say(fmt::format("flagged    {} of {} plots: {}{}", ids.size(), estimate.plots.size(),
-                            flag, named));
+    program.say("flagged    {} of {} plots: {}{}", ids.size(), estimate.plots.size(), flag, named);
   }
 }
 
 void say_heights(const Program& program, const nlohmann::json& summary) {
   for (const auto& [name, height] : summary.items()) {
-    program.say(fmt::format("{:10} median {:.3f} m, {:.3f} to {:.3f} m, {} plots", name,
-                            height["median_m"].get<double>(), height["min_m"].get<double>(),
-                            height["max_m"].get<double>(), height["plots"].get<std::size_t>()));
+    program.say("{:10} median {:.3f} m, {:.3f} to {:.3f} m, {} plots", name,
+                height["median_m"].get<double>(), height["min_m"].get<double>(),
+                height["max_m"].get<double>(), height["plots"].get<std::size_t>());
   }
 }
 

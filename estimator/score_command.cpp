@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "commands.h"
 #include <fmt/core.h>
 
+#include "commands.h"
 #include "core/angle.h"
 #include "core/plot_id.h"
 #include "score/run.h"
@@ -19,31 +19,31 @@ namespace {
 void say_table(const Program& program, const score::Scores& scores) {
   const score::TableMatch& table = *scores.table;
   const std::size_t found = scores.boxes.found;
-  program.say(fmt::format("plots    {} of {} measured plots are in the estimate, by {}", found,
-                          found + table.not_found.size(), table.id_column));
+  program.say("plots    {} of {} measured plots are in the estimate, by {}", found,
+              found + table.not_found.size(), table.id_column);
   if (table.not_found.empty()) return;
   program.say("         not in it: " + joined(table.not_found));
 }
 
 void say_boxes(const Program& program, const score::BoxScore& boxes) {
-  program.say(fmt::format("plots    {} of {} found, {} missed, {} extra", boxes.found, boxes.plots,
-                          boxes.missed, boxes.extra));
+  program.say("plots    {} of {} found, {} missed, {} extra", boxes.found, boxes.plots,
+              boxes.missed, boxes.extra);
   if (boxes.found == 0) return;
   program.say(
-      fmt::format("boxes    IoU mean {:.3f}, median {:.3f}, least {:.3f}; centre {:.3f} m rms, "
-                  "heading {:.2f} deg rms",
-                  boxes.iou_mean, boxes.iou_median, boxes.iou_min, boxes.center_rmse_m,
-                  degrees(boxes.heading_rmse_rad)));
+      "boxes    IoU mean {:.3f}, median {:.3f}, least {:.3f}; centre {:.3f} m rms, "
+      "heading {:.2f} deg rms",
+      boxes.iou_mean, boxes.iou_median, boxes.iou_min, boxes.center_rmse_m,
+      degrees(boxes.heading_rmse_rad));
 }
 
 void say_errors(const Program& program, const std::vector<score::HeightScore>& heights) {
-  program.say(fmt::format("{:12} {:15} {:>5} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>5}", "height",
-                          "truth", "plots", "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2"));
+  program.say("{:12} {:15} {:>5} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>5}", "height", "truth",
+              "plots", "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2");
   for (const score::HeightScore& height : heights) {
-    program.say(fmt::format(
-        "{:12} {:15} {:5} {:7} {:7.2f} {:+7.2f} {:7.2f} {:7.2f} {:8.2f} {:5.2f}", height.height,
-        height.truth, height.plots, height.without, 100 * height.rmse_m, 100 * height.bias_m,
-        100 * height.mae_m, 100 * height.standard_error_m, height.r2, height.correlation2));
+    program.say("{:12} {:15} {:5} {:7} {:7.2f} {:+7.2f} {:7.2f} {:7.2f} {:8.2f} {:5.2f}",
+                height.height, height.truth, height.plots, height.without, 100 * height.rmse_m,
+                100 * height.bias_m, 100 * height.mae_m, 100 * height.standard_error_m, height.r2,
+                height.correlation2);
   }
   program.say(
       "RMSE, bias (estimate minus truth), MAE and SE (of the bias) in cm, over the plots "
@@ -61,8 +61,8 @@ void say_trust(const Program& program, const std::vector<score::HeightScore>& he
   }
   if (lines.empty()) return;
   program.say("");
-  program.say(fmt::format("{:12} {:15} {:>9} {:>9} {:>16}", "height", "truth", "in 95 %", "flagged",
-                          "over 5 cm, none"));
+  program.say("{:12} {:15} {:>9} {:>9} {:>16}", "height", "truth", "in 95 %", "flagged",
+              "over 5 cm, none");
   for (const std::string& line : lines) program.say(line);
   program.say(
       "in 95 %: truths inside the estimate's own intervals; over 5 cm, none: plots in error by "

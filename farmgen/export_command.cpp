@@ -1,20 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "export_command.h"
-
 #include <filesystem>
 #include <map>
 #include <memory>
 #include <string>
 
-#include "farmfolder/read_farm.h"
-#include <fmt/core.h>
-
+#include "commands.h"
 #include "core/stopwatch.h"
+#include "farmfolder/read_farm.h"
 #include "gazebo/export_world.h"
 
+namespace plotscan {
 namespace {
-
-using namespace plotscan;
 
 struct ExportArguments {
   std::string farm;
@@ -78,17 +74,17 @@ void run_export(const Program& program, const ExportArguments& arguments) {
                  {"seconds", watch.seconds()}});
   program.result(result);
   program.say(
-      fmt::format("{}: {} plants merged by {}, {:.1f} MB, {} triangles, {} models, {} "
-                  "links, {} visuals, {} collisions, in {:.2f} s",
-                  arguments.output, summary.plants, arguments.merge,
-                  static_cast<double>(summary.bytes) * 1e-6, counts.triangles, counts.models,
-                  counts.links, counts.visuals, counts.collisions, watch.seconds()));
+      "{}: {} plants merged by {}, {:.1f} MB, {} triangles, {} models, {} "
+      "links, {} visuals, {} collisions, in {:.2f} s",
+      arguments.output, summary.plants, arguments.merge, static_cast<double>(summary.bytes) * 1e-6,
+      counts.triangles, counts.models, counts.links, counts.visuals, counts.collisions,
+      watch.seconds());
   program.say("README.md in it tells how it is opened");
 }
 
 }  // namespace
 
-void add_export_command(Program& program) {
+void declare_export(Program& program) {
   const auto arguments = std::make_shared<ExportArguments>();
   CLI::App& command = program.command("export", "Write a farm folder as a world for Gazebo.",
                                       [&program, arguments] { run_export(program, *arguments); },
@@ -121,3 +117,5 @@ void add_export_command(Program& program) {
              kLidars);
   command.add_flag("--force", arguments->force, "replace a world that is already there");
 }
+
+}  // namespace plotscan

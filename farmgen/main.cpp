@@ -4,22 +4,21 @@
 #include <string>
 #include <vector>
 
-#include "description/load_description.h"
-#include "export_command.h"
-#include "farmfolder/read_farm.h"
-#include "plant_command.h"
-#include "planting/generate.h"
-#include "terrain/extent.h"
 #include <fmt/core.h>
 
+#include "commands.h"
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/place_json.h"
 #include "core/program.h"
 #include "core/stopwatch.h"
+#include "description/load_description.h"
 #include "farm/heights.h"
 #include "farm/summary.h"
+#include "farmfolder/read_farm.h"
 #include "lidar/make_farm.h"
+#include "planting/generate.h"
+#include "terrain/extent.h"
 
 namespace {
 
@@ -100,30 +99,27 @@ void say_cultivars(const Program& program, const std::vector<farm::CultivarSumma
 
 void say_summary(const Program& program, const farm::Farm& made, const farm::FarmSummary& summary) {
   const auto say_spread = [&](const char* label, const farm::Spread& spread) {
-    program.say(fmt::format("{:15} {:.3f} / {:.3f} / {:.3f} m (min / mean / max)", label,
-                            spread.min, spread.mean, spread.max));
+    program.say("{:15} {:.3f} / {:.3f} / {:.3f} m (min / mean / max)", label, spread.min,
+                spread.mean, spread.max);
   };
-  program.say(fmt::format("farm            {}, seed {}", made.name, made.seed));
+  program.say("farm            {}, seed {}", made.name, made.seed);
   if (made.anchor) {
-    program.say(fmt::format(
-        "anchor          latitude {:.8f}, longitude {:.8f} deg, {:.2f} m above WGS84",
-        made.anchor->latitude_deg, made.anchor->longitude_deg, made.anchor->altitude_m));
+    program.say("anchor          latitude {:.8f}, longitude {:.8f} deg, {:.2f} m above WGS84",
+                made.anchor->latitude_deg, made.anchor->longitude_deg, made.anchor->altitude_m);
   }
-  program.say(fmt::format("terrain         {:.1f} x {:.1f} m, z {:.2f} to {:.2f} m, {} triangles",
-                          summary.terrain_size_m.x(), summary.terrain_size_m.y(),
-                          summary.terrain_z_m.x(), summary.terrain_z_m.y(),
-                          summary.terrain_triangles));
-  program.say(
-      fmt::format("plots           {}{} in a field of {:.1f} x {:.1f} m", summary.plots,
-                  summary.trials > 1 ? fmt::format(" of {} trials", summary.trials) : std::string(),
-                  summary.field_size_m.x(), summary.field_size_m.y()));
-  program.say(fmt::format("plants          {} of {} models, {} triangles when placed",
-                          summary.plants, summary.models, summary.plant_triangles));
+  program.say("terrain         {:.1f} x {:.1f} m, z {:.2f} to {:.2f} m, {} triangles",
+              summary.terrain_size_m.x(), summary.terrain_size_m.y(), summary.terrain_z_m.x(),
+              summary.terrain_z_m.y(), summary.terrain_triangles);
+  program.say("plots           {}{} in a field of {:.1f} x {:.1f} m", summary.plots,
+              summary.trials > 1 ? fmt::format(" of {} trials", summary.trials) : std::string(),
+              summary.field_size_m.x(), summary.field_size_m.y());
+  program.say("plants          {} of {} models, {} triangles when placed", summary.plants,
+              summary.models, summary.plant_triangles);
   say_spread("plant heights", summary.plant_height_m);
   say_spread("plot maxima", summary.plot_height_max_m);
-  if (summary.weeds > 0) program.say(fmt::format("weeds           {}", summary.weeds));
-  program.say(fmt::format("leaf area index {:.2f} (area of the crop's leaves over the plots' area)",
-                          summary.leaf_area_index));
+  if (summary.weeds > 0) program.say("weeds           {}", summary.weeds);
+  program.say("leaf area index {:.2f} (area of the crop's leaves over the plots' area)",
+              summary.leaf_area_index);
   if (!summary.cultivars.empty()) say_cultivars(program, summary.cultivars);
 }
 
@@ -158,10 +154,10 @@ void run_generate(const Program& program, const Arguments& arguments) {
   }
   const Eigen::Vector3d size_m = terrain::extent_of(made.terrain).sizes();
   const auto weeds = std::ranges::count(made.plants, farm::PlantKind::weed, &farm::Plant::kind);
-  program.say(fmt::format("{}: {} plots, {} plants on {:.1f} x {:.1f} m, seed {}, in {:.2f} s",
-                          arguments.output, made.plots.size(),
-                          made.plants.size() - static_cast<std::size_t>(weeds), size_m.x(),
-                          size_m.y(), made.seed, watch.seconds()));
+  program.say("{}: {} plots, {} plants on {:.1f} x {:.1f} m, seed {}, in {:.2f} s",
+              arguments.output, made.plots.size(),
+              made.plants.size() - static_cast<std::size_t>(weeds), size_m.x(), size_m.y(),
+              made.seed, watch.seconds());
   say_notes(program, made);
 }
 
@@ -215,7 +211,7 @@ int main(int argc, char** argv) {
                                     [&] { run_check(program, arguments); }, {.seed = kFarmSeed});
   add_farm_options(check, arguments);
 
-  add_export_command(program);
-  add_plant_command(program);
+  declare_export(program);
+  declare_plant(program);
   return program.run(argc, argv);
 }

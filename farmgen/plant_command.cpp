@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plant_command.h"
-
 #include <algorithm>
 #include <filesystem>
 #include <iostream>
@@ -10,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "commands.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/manifest.h"
@@ -98,13 +97,12 @@ void run_plant(const Program& program, const PlantArguments& arguments) {
                   {"area_m2", mesh::ScaledArea(mesh).at()},
                   {"vertices", mesh.vertices.size()},
                   {"triangles", mesh.triangles.size()}});
-  program.say(fmt::format("{}: {} at {}, height {:.3f} m, leaf area {:.4f} m2, {} triangles",
-                          arguments.output, options.crop, facts.stage.name, height_m, leaf_area_m2,
-                          mesh.triangles.size()));
-  program.say(fmt::format(
+  program.say("{}: {} at {}, height {:.3f} m, leaf area {:.4f} m2, {} triangles", arguments.output,
+              options.crop, facts.stage.name, height_m, leaf_area_m2, mesh.triangles.size());
+  program.say(
       "a plot of {:g} plants per m2 at {}: height {:g} to {:g} m, leaf area index {:g} to {:g}",
       facts.plants_per_m2, facts.stage.name, facts.stage.height_m.low, facts.stage.height_m.high,
-      facts.stage.leaf_area_index.low, facts.stage.leaf_area_index.high));
+      facts.stage.leaf_area_index.low, facts.stage.leaf_area_index.high);
 }
 
 std::string stages_help(const crop::Cultivar& cultivar) {
@@ -170,7 +168,7 @@ void list(const Program& program, const crop::GrowOptions& options) {
 
 }  // namespace
 
-void add_plant_command(Program& program) {
+void declare_plant(Program& program) {
   const auto arguments = std::make_shared<PlantArguments>();
   CLI::App& plant = program.command("plant", "Grow a plant mesh from parameters and a seed.",
                                     [&program, arguments] { run_plant(program, *arguments); },

@@ -6,9 +6,9 @@
 #include <cstddef>
 #include <iterator>
 
-#include "boundary/guarded.h"
 #include <fmt/core.h>
 
+#include "boundary/guarded.h"
 #include "core/output_file.h"
 #include "record/convert.h"
 #include "record/formats.h"

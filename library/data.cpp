@@ -2,7 +2,6 @@
 #include "plotscan/data.h"
 
 #include "boundary/guarded.h"
-
 #include "core/data_folder.h"
 #include "core/manifest.h"
 

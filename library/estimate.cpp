@@ -3,18 +3,18 @@
 
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "boundary/field_estimate.h"
 #include "boundary/guarded.h"
 #include "boundary/settings.h"
 #include "boundary/values.h"
 #include "cloud/field_cloud.h"
 #include "cloud/tile_store.h"
-#include "methods/run.h"
-#include <fmt/core.h>
-
 #include "core/coordinate_units.h"
 #include "core/error.h"
 #include "core/text.h"
+#include "methods/run.h"
 
 namespace plotscan {
 namespace {

@@ -3,7 +3,6 @@
 
 #include "boundary/guarded.h"
 #include "boundary/values.h"
-
 #include "core/data_folder.h"
 #include "core/list_of.h"
 #include "farm/summary.h"

@@ -4,7 +4,6 @@
 #include "boundary/guarded.h"
 #include "boundary/settings.h"
 #include "boundary/values.h"
-
 #include "core/data_folder.h"
 #include "lidar/fly_place.h"
 #include "lidar/fly_settings.h"
@@ -13,13 +12,14 @@ namespace plotscan {
 namespace {
 
 lidar::FlyPlaceOptions inner(const FlightOptions& options) {
-  lidar::FlyPlaceOptions made{.resource_paths = options.resource_paths, .replace = options.replace};
+  lidar::FlyPlaceOptions made{.resource_paths = options.resource_paths};
   boundary::take("the flight", options.settings, lidar::fly_settings(), made.flight);
   made.flight.flight = options.trajectory;
   made.flight.waypoints = options.waypoints;
   made.flight.formats = options.formats;
   made.flight.seed = options.seed;
   made.flight.threads = boundary::threads_of(options.threads);
+  made.flight.replace = options.replace;
   return made;
 }
 

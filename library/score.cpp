@@ -3,7 +3,6 @@
 
 #include "boundary/field_estimate.h"
 #include "boundary/guarded.h"
-
 #include "core/angle.h"
 #include "core/json_text.h"
 #include "score/run.h"

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "commands.h"
-#include <fmt/core.h>
-
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "record/convert.h"
@@ -41,14 +39,13 @@ void run_convert(const Program& program, ConvertArguments& arguments) {
                   {"bytes", bytes},
                   {"seconds", watch.seconds()}});
   const bool poses = summary.poses > 0;
-  program.say(fmt::format("{}: {} {}, {:.1f} MB", arguments.out,
-                          poses ? summary.poses : summary.points, poses ? "poses" : "points",
-                          1e-6 * static_cast<double>(bytes)));
+  program.say("{}: {} {}, {:.1f} MB", arguments.out, poses ? summary.poses : summary.points,
+              poses ? "poses" : "points", 1e-6 * static_cast<double>(bytes));
   if (summary.without_place > 0)
     program.say(
-        fmt::format("note: {} more points have no place: they are not finite, or no pose "
-                    "or transform covers their time",
-                    summary.without_place));
+        "note: {} more points have no place: they are not finite, or no pose "
+        "or transform covers their time",
+        summary.without_place);
   for (const std::string& note : summary.notes) program.say("note: " + note);
 }
 

@@ -5,8 +5,6 @@
 #include <vector>
 
 #include "commands.h"
-#include <fmt/core.h>
-
 #include "core/text.h"
 #include "record/join_scans.h"
 #include "record/scan_formats.h"
@@ -27,9 +25,9 @@ void run_join(const Program& program, const JoinArguments& arguments) {
                   {"parts", summary.parts},
                   {"shots", summary.shots},
                   {"points", summary.points}});
-  program.say(fmt::format("{}: {} parts, {:.2f} million shots, {:.2f} million points",
-                          arguments.scan, summary.parts, 1e-6 * static_cast<double>(summary.shots),
-                          1e-6 * static_cast<double>(summary.points)));
+  program.say("{}: {} parts, {:.2f} million shots, {:.2f} million points", arguments.scan,
+              summary.parts, 1e-6 * static_cast<double>(summary.shots),
+              1e-6 * static_cast<double>(summary.points));
 }
 
 }  // namespace

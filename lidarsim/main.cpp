@@ -5,9 +5,9 @@
 #include <variant>
 #include <vector>
 
-#include "commands.h"
 #include <fmt/core.h>
 
+#include "commands.h"
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/stopwatch.h"
@@ -43,13 +43,11 @@ void report(const Program& program, const Arguments& arguments, const lidar::Pla
                   {"notes", notes},
                   {"seconds", elapsed_s}});
   for (const std::string& note : notes) program.say("note: " + note);
-  program.say(fmt::format("{}: a flight of {:.1f} s, {:.2f} million shots, {:.2f} million points",
-                          arguments.scan, summary.duration_s,
-                          1e-6 * static_cast<double>(summary.shots),
-                          1e-6 * static_cast<double>(summary.points)));
-  program.say(
-      fmt::format("cloud.pcd {:.1f} MB, simulated in {:.2f} s ({:.1f} million shots a second)",
-                  1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second));
+  program.say("{}: a flight of {:.1f} s, {:.2f} million shots, {:.2f} million points",
+              arguments.scan, summary.duration_s, 1e-6 * static_cast<double>(summary.shots),
+              1e-6 * static_cast<double>(summary.points));
+  program.say("cloud.pcd {:.1f} MB, simulated in {:.2f} s ({:.1f} million shots a second)",
+              1e-6 * static_cast<double>(bytes), elapsed_s, 1e-6 * shots_a_second);
 }
 
 void require_swaying(const CLI::App& fly, const lidar::FlyOptions& options, bool is_farm) {
@@ -165,7 +163,7 @@ void add_options(CLI::App& fly, Arguments& arguments) {
   fly.add_option("--part", arguments.part,
                  "I/N: scan the I-th of N equally long parts of the flight, which lidarsim join "
                  "joins (docs/scale.md)");
-  fly.add_flag("--force", arguments.options.replace, "replace an existing scan folder");
+  fly.add_flag("--force", options.replace, "replace an existing scan folder");
 }
 
 }  // namespace

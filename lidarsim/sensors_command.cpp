@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "commands.h"
-
 #include "sensor/sensor.h"
 #include "sensor/summary.h"
 

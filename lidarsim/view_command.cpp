@@ -4,8 +4,6 @@
 #include <string>
 
 #include "commands.h"
-#include <fmt/core.h>
-
 #include "core/stopwatch.h"
 #include "core/text.h"
 #include "record/formats.h"
@@ -28,10 +26,10 @@ void view_scan(const Program& program, scanpage::PageOptions& options) {
                   {"notes", summary.notes},
                   {"bytes", bytes},
                   {"seconds", watch.seconds()}});
-  program.say(fmt::format("{}: {:.2f} of {:.2f} million points, {:.1f} MB, made in {:.1f} s",
-                          options.html.string(), 1e-6 * static_cast<double>(summary.shown),
-                          1e-6 * static_cast<double>(summary.read),
-                          1e-6 * static_cast<double>(bytes), watch.seconds()));
+  program.say("{}: {:.2f} of {:.2f} million points, {:.1f} MB, made in {:.1f} s",
+              options.html.string(), 1e-6 * static_cast<double>(summary.shown),
+              1e-6 * static_cast<double>(summary.read), 1e-6 * static_cast<double>(bytes),
+              watch.seconds());
   for (const std::string& note : summary.notes) program.say("note       " + note);
   program.say("Open it in a browser; it needs no network.");
 }

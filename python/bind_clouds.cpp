@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "bind.h"
-#include "plotscan/clouds.h"
-#include "watched.h"
 #include <pybind11/numpy.h>
 #include <pybind11/stl.h>
 #include <pybind11/stl/filesystem.h>
+
+#include "bind.h"
+#include "plotscan/clouds.h"
+#include "watched.h"
 
 namespace plotscan::python {
 namespace py = pybind11;

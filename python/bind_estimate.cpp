@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <pybind11/numpy.h>
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
 #include "bind.h"
 #include "members.h"
 #include "plotscan/clouds.h"
 #include "plotscan/estimate.h"
 #include "points_of.h"
 #include "watched.h"
-#include <pybind11/numpy.h>
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plotscan::python {
 namespace py = pybind11;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
+#include <pybind11/stl.h>
+#include <pybind11/stl/filesystem.h>
+
 #include "bind.h"
 #include "members.h"
 #include "plotscan/farm.h"
 #include "plotscan/flight.h"
 #include "plotscan/score.h"
 #include "watched.h"
-#include <pybind11/stl.h>
-#include <pybind11/stl/filesystem.h>
 
 namespace plotscan::python {
 namespace py = pybind11;

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // The compiled part of the Python package plotscan, which plotscan/__init__.py documents.
+#include <pybind11/stl/filesystem.h>
+
 #include "bind.h"
 #include "plotscan/data.h"
 #include "plotscan/error.h"
-#include <pybind11/stl/filesystem.h>
 
 PYBIND11_MODULE(_plotscan, module) {
   namespace py = pybind11;

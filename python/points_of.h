@@ -3,8 +3,9 @@
 
 #include <array>
 
-#include "plotscan/points.h"
 #include <pybind11/numpy.h>
+
+#include "plotscan/points.h"
 
 namespace plotscan::python {
 

@@ -5,8 +5,9 @@
 #include <optional>
 #include <utility>
 
-#include "plotscan/progress.h"
 #include <pybind11/pybind11.h>
+
+#include "plotscan/progress.h"
 
 namespace plotscan::python {
 

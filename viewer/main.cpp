@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <span>
 
-#include "farmfolder/read_farm.h"
 #include <fmt/core.h>
 
 #include "core/error.h"
@@ -13,6 +12,7 @@
 #include "estimate/estimate.h"
 #include "estimate/ground_grids.h"
 #include "farm/farm.h"
+#include "farmfolder/read_farm.h"
 #include "mesh/mesh_import.h"
 #include "view/field_picture.h"
 #include "view/picture.h"

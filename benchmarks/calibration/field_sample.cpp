@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "calibration/perfect_returns.h"
-#include "description/load_description.h"
-#include "planting/generate.h"
-
 #include "core/extent.h"
 #include "core/random.h"
 #include "core/statistics.h"
 #include "core/temporary_path.h"
+#include "description/load_description.h"
 #include "lidar/canopy_height.h"
+#include "planting/generate.h"
 #include "scan/cloud_reader.h"
 
 namespace plotscan::calibration {
@@ -97,7 +96,8 @@ FieldSample sample_field(const FarmPlan& plan, const std::filesystem::path& base
   const TemporaryPath scan(work / ("scan-" + std::to_string(plan.seed)));
   lidar::FlyOptions flight = plan.flight;
   flight.threads = threads;
-  lidar::fly(farm, scan.path(), flight, true);
+  flight.replace = true;
+  lidar::fly(farm, scan.path(), flight);
   const std::vector<Eigen::Vector3f> points = scan::read_positions(scan.path() / "cloud.pcd");
   FieldSample sample{.library = plan.library, .seed = plan.seed};
   sample.surface = source == GroundSource::truth

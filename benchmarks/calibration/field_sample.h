@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "calibration/farm_plan.h"
-
 #include "core/plot_box.h"
 #include "ground/surface.h"
 

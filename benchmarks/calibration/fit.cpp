@@ -8,11 +8,11 @@
 #include <string>
 #include <utility>
 
+#include <tbb/parallel_for.h>
+
 #include "calibration/fit_covariance.h"
 #include "calibration/fit_within.h"
 #include "calibration/groups.h"
-#include <tbb/parallel_for.h>
-
 #include "core/error.h"
 #include "core/statistics.h"
 #include "heights/crop_model.h"

@@ -4,7 +4,6 @@
 #include <span>
 
 #include "calibration/measured_field.h"
-
 #include "heights/calibration.h"
 
 namespace plotscan::calibration {

@@ -3,9 +3,9 @@
 
 #include <span>
 
-#include "calibration/measured_field.h"
 #include <Eigen/Core>
 
+#include "calibration/measured_field.h"
 #include "heights/calibration.h"
 
 namespace plotscan::calibration {

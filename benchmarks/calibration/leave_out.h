@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "calibration/groups.h"
-
 #include "heights/calibration.h"
 
 namespace plotscan::calibration {

@@ -4,13 +4,13 @@
 #include <mutex>
 #include <string>
 
-#include "calibration/field_sample.h"
-#include "calibration/fit.h"
-#include "calibration/leave_out.h"
 #include <fmt/core.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 
+#include "calibration/field_sample.h"
+#include "calibration/fit.h"
+#include "calibration/leave_out.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/program.h"

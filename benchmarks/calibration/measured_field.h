@@ -5,8 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "calibration/field_sample.h"
 #include <Eigen/Core>
+
+#include "calibration/field_sample.h"
 
 namespace plotscan::calibration {
 

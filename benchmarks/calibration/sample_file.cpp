@@ -2,9 +2,9 @@
 #include <cstdint>
 #include <fstream>
 
-#include "calibration/field_sample.h"
 #include <nlohmann/json.hpp>
 
+#include "calibration/field_sample.h"
 #include "core/error.h"
 
 namespace plotscan::calibration {

@@ -6,11 +6,12 @@
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/json_text.h"
+#include "core/output_file.h"
 #include "core/place_json.h"
 #include "core/plot_features.h"
 #include "core/text_file.h"
 #include "core/utc_time.h"
-#include "farmbench/text_file.h"
 #include "record/convert.h"
 #include "record/scan_folder.h"
 #include "record/scan_formats.h"
@@ -96,7 +97,7 @@ std::uint64_t write_blind_files(const FarmPlace& place, const BlindParts& parts,
   }
   fs::copy_file(scan / "poses.csv", folder / "poses.csv");
   fs::copy_file(scan / "sensor.yaml", folder / "sensor.yaml");
-  write_json(folder / "flight.json", flight_json(scan, place.suite_case.flight));
+  write_whole_file(folder / "flight.json", json_lines(flight_json(scan, place.suite_case.flight)));
   return points;
 }
 

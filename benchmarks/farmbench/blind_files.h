@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "cloud/area.h"
-
 #include "farmbench/farm_scan.h"
 #include "score/score.h"
 

@@ -8,7 +8,7 @@
 
 #include "core/error.h"
 #include "core/json_text.h"
-#include "farmbench/text_file.h"
+#include "core/output_file.h"
 #include "score/score_files.h"
 
 namespace plotscan::farmbench {
@@ -103,7 +103,7 @@ void require_new_name(const Entry& entry, const fs::path& file,
 
 void write_entry(const fs::path& output, const Entry& entry) {
   fs::create_directories(output / "entries");
-  write_json(file_of(output, entry), entry);
+  write_whole_file(file_of(output, entry), json_lines(json(entry)));
 }
 
 const EnteredFarm* farm_of_other_truth(const Entry& entry, const SuiteResult& result) {

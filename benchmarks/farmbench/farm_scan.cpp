@@ -39,7 +39,7 @@ lidar::FlySummary fly_survey(const farm::Farm& farm, const cloud::Area& survey,
                  .width_m = sides_m.y(),
                  .length_m = sides_m.x(),
                  .heading_rad = 0}};
-  return lidar::fly(site, lidar::scene_content(farm), folder, flight, true, progress);
+  return lidar::fly(site, lidar::scene_content(farm), folder, flight, progress);
 }
 
 // Writes those points of a cloud, with all that is known of them, that lie in the area.
@@ -87,9 +87,9 @@ ScannedFarm scan_farm(const FarmPlace& place, const farm::Farm& farm,
   lidar::FlyOptions flight = suite_case.flight;
   flight.seed = seed;
   flight.threads = threads;
+  flight.replace = true;
   const fs::path scan = folder / "scan";
-  if (!suite_case.survey)
-    return {lidar::fly(farm, scan, flight, true, progress), scan / "cloud.pcd"};
+  if (!suite_case.survey) return {lidar::fly(farm, scan, flight, progress), scan / "cloud.pcd"};
   const lidar::FlySummary flown = fly_survey(farm, *suite_case.survey, scan, flight, progress);
   crop_cloud(scan / "cloud.pcd", *suite_case.survey, folder / "survey.pcd");
   return {flown, folder / "survey.pcd"};

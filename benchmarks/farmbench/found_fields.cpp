@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/found_fields.h"
 
-#include "methods/lattice/settings.h"
-
 #include "core/stopwatch.h"
+#include "methods/lattice/settings.h"
 
 namespace plotscan::farmbench {
 namespace {

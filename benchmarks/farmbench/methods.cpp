@@ -5,14 +5,13 @@
 #include <map>
 #include <sstream>
 
-#include "methods/dhami2020/settings.h"
-#include "methods/lattice/settings.h"
-
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/statistics.h"
 #include "core/text.h"
 #include "farmbench/internal/method_rows.h"
+#include "methods/dhami2020/settings.h"
+#include "methods/lattice/settings.h"
 #include "score/height_score.h"
 #include "score/oracle_ground.h"
 

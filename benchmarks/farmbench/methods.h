@@ -9,11 +9,10 @@
 #include <vector>
 
 #include "cloud/cloud_map.h"
-#include "terrain/terrain.h"
-
 #include "estimate/estimate.h"
 #include "farmbench/found_fields.h"
 #include "score/score.h"
+#include "terrain/terrain.h"
 
 namespace plotscan::farmbench {
 

@@ -12,13 +12,13 @@
 #include "core/format.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
+#include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "core/text.h"
 #include "farmbench/entries.h"
 #include "farmbench/internal/farm_task.h"
 #include "farmbench/internal/run_farm.h"
-#include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
@@ -70,7 +70,7 @@ std::string tasks_csv(const Suite& suite) {
 // Whether the file held something else.
 bool write_changed(const fs::path& file, const std::string& text) {
   if (fs::exists(file) && read_text(file) == text) return false;
-  write_text(file, text);
+  write_whole_file(file, text);
   return true;
 }
 

@@ -10,14 +10,14 @@
 
 #include "core/angle.h"
 #include "core/list_of.h"
-#include "farmbench/format.h"
+#include "core/output_file.h"
+#include "farmbench/figures.h"
 #include "farmbench/internal/change_chart.h"
 #include "farmbench/internal/failures.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/internal/suite_page.h"
 #include "farmbench/internal/sweep_table.h"
 #include "farmbench/markdown.h"
-#include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -335,17 +335,17 @@ std::vector<std::string> summary_lines(const SuiteResult& result,
 
 void write_reports(const std::filesystem::path& folder, const SuiteResult& result,
                    const std::vector<TableRow>& table) {
-  write_text(folder / "table.csv", table_csv(table));
-  write_text(folder / "leaderboard.md", leaderboard(result, table));
+  write_whole_file(folder / "table.csv", table_csv(table));
+  write_whole_file(folder / "leaderboard.md", leaderboard(result, table));
   write_suite_page(folder, result, table);
   if (result.sweep) {
-    write_text(folder / "sweep.csv", sweep_csv(result, table));
-    write_text(folder / "sweep.md", sweep_markdown(result, table));
+    write_whole_file(folder / "sweep.csv", sweep_csv(result, table));
+    write_whole_file(folder / "sweep.md", sweep_markdown(result, table));
   }
   if (!result.baseline) return;
   for (const std::string& truth : shown_truths(result, table))
-    write_text(folder / ("changes_" + truth + ".svg"),
-               change_chart(result, rows_against(truth, table)));
+    write_whole_file(folder / ("changes_" + truth + ".svg"),
+                     change_chart(result, rows_against(truth, table)));
 }
 
 }  // namespace plotscan::farmbench

@@ -12,6 +12,7 @@
 #include "core/format.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
+#include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/stopwatch.h"
 #include "core/temporary_path.h"
@@ -20,7 +21,6 @@
 #include "farmbench/internal/farm_task.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/reports.h"
-#include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
@@ -108,7 +108,7 @@ RunSummary write_results(const RunOptions& options, const Suite& suite,
   RunSummary summary{.result = result_of(suite, std::move(farms)), .table = {}};
   add_entries(options.output, summary.result);
   summary.table = make_table(summary.result, options.seed);
-  write_json(options.output / "results.json", summary.result);
+  write_whole_file(options.output / "results.json", json_lines(json(summary.result)));
   write_reports(options.output, summary.result, summary.table);
   write_run_manifest(options, suite.name, tasks.size(), finished);
   return summary;

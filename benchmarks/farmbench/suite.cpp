@@ -4,11 +4,10 @@
 #include <algorithm>
 #include <set>
 
-#include "description/load_description.h"
-
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/yaml_section.h"
+#include "description/load_description.h"
 #include "farmbench/entry/entered_plots.h"
 #include "farmbench/internal/flight_section.h"
 #include "farmbench/internal/sweep_section.h"

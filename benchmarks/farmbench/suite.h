@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "cloud/area.h"
-
 #include "farmbench/command_method.h"
 #include "farmbench/sweep.h"
 #include "lidar/fly.h"

@@ -9,7 +9,7 @@
 
 #include "core/angle.h"
 #include "core/csv.h"
-#include "farmbench/format.h"
+#include "farmbench/figures.h"
 #include "farmbench/internal/bootstrap.h"
 #include "farmbench/internal/method_rows.h"
 

@@ -11,12 +11,11 @@
 #include <vector>
 
 #include "cloud/cloud_map.h"
+#include "core/error.h"
+#include "core/stopwatch.h"
 #include "farmfolder/plot_table.h"
 #include "farmfolder/terrain_ply.h"
 #include "methods.h"
-
-#include "core/error.h"
-#include "core/stopwatch.h"
 
 namespace {
 

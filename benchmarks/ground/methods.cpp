@@ -5,17 +5,17 @@
 #include <cmath>
 #include <map>
 
-#include "cloud/points_in_boxes.h"
-#include "methods/dhami2020/ground_plane.h"
-#include "methods/dhami2020/voxel_filter.h"
 #include <pcl/point_types.h>
 #include <pcl/segmentation/progressive_morphological_filter.h>
 
+#include "cloud/points_in_boxes.h"
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/list_of.h"
 #include "core/statistics.h"
 #include "ground/surface.h"
+#include "methods/dhami2020/ground_plane.h"
+#include "methods/dhami2020/voxel_filter.h"
 
 namespace plotscan::ground_error {
 namespace {
@@ -59,30 +59,28 @@ struct Raster {
     const double* const north = south + columns;
     return (1 - n) * ((1 - e) * south[0] + e * south[1]) + n * ((1 - e) * north[0] + e * north[1]);
   }
+  // The mean of the cell's neighbours; NaN where all are empty.
+  double mean_around(int column, int row) const {
+    double sum = 0, count = 0;
+    for (int r = std::max(0, row - 1); r <= std::min(rows - 1, row + 1); ++r) {
+      for (int c = std::max(0, column - 1); c <= std::min(columns - 1, column + 1); ++c) {
+        const double near = z[static_cast<std::size_t>(r) * columns + c];
+        if (std::isnan(near)) continue;
+        sum += near;
+        ++count;
+      }
+    }
+    return sum / count;
+  }
   // Throws InputError where all are empty.
   void fill() {
-    if (std::ranges::all_of(z, [](double height) { return std::isnan(height); }))
-      throw InputError("the filter found no ground");
-    for (bool empty = true; empty;) {
-      empty = false;
+    const auto is_empty = [](double height) { return std::isnan(height); };
+    if (std::ranges::all_of(z, is_empty)) throw InputError("the filter found no ground");
+    while (std::ranges::any_of(z, is_empty)) {
       std::vector<double> filled = z;
-      for (int r = 0; r < rows; ++r) {
-        for (int c = 0; c < columns; ++c) {
-          const std::size_t i = static_cast<std::size_t>(r) * columns + c;
-          if (!std::isnan(z[i])) continue;
-          double sum = 0, count = 0;
-          for (int y = std::max(0, r - 1); y <= std::min(rows - 1, r + 1); ++y) {
-            for (int x = std::max(0, c - 1); x <= std::min(columns - 1, c + 1); ++x) {
-              const double near = z[static_cast<std::size_t>(y) * columns + x];
-              if (std::isnan(near)) continue;
-              sum += near;
-              ++count;
-            }
-          }
-          if (count > 0) filled[i] = sum / count;
-          empty = empty || count == 0;
-        }
-      }
+      for (std::size_t i = 0; i < z.size(); ++i)
+        if (std::isnan(z[i]))
+          filled[i] = mean_around(static_cast<int>(i % columns), static_cast<int>(i / columns));
       z = filled;
     }
   }

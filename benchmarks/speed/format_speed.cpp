@@ -10,12 +10,12 @@
 #include <string>
 #include <vector>
 
-#include "comparison.h"
 #include <benchmark/benchmark.h>
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include "comparison.h"
 #include "core/error.h"
 #include "core/temporary_path.h"
 #include "record/formats.h"

@@ -6,16 +6,16 @@
 #include <string>
 #include <vector>
 
-#include "comparison.h"
-#include "farmfolder/read_farm.h"
 #include <benchmark/benchmark.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <tbb/task_arena.h>
 #include <unistd.h>
 
+#include "comparison.h"
 #include "core/temporary_path.h"
 #include "farm/farm.h"
+#include "farmfolder/read_farm.h"
 #include "flight/route.h"
 #include "lidar/embree.h"
 #include "lidar/flight_plan.h"

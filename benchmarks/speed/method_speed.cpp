@@ -11,10 +11,6 @@
 #include <utility>
 #include <vector>
 
-#include "comparison.h"
-#include "methods/dhami2020/ground_plane.h"
-#include "methods/dhami2020/k_means.h"
-#include "methods/dhami2020/voxel_filter.h"
 #include <benchmark/benchmark.h>
 #include <fmt/format.h>
 #include <pcl/filters/voxel_grid.h>
@@ -22,7 +18,11 @@
 #include <pcl/point_types.h>
 #include <pcl/segmentation/sac_segmentation.h>
 
+#include "comparison.h"
 #include "core/error.h"
+#include "methods/dhami2020/ground_plane.h"
+#include "methods/dhami2020/k_means.h"
+#include "methods/dhami2020/voxel_filter.h"
 #include "record/open_source.h"
 #include "scan/point.h"
 

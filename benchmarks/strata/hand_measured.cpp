@@ -5,10 +5,9 @@
 #include <map>
 #include <utility>
 
-#include "methods/agree.h"
-
 #include "core/random.h"
 #include "estimate/measured_heights.h"
+#include "methods/agree.h"
 
 namespace plotscan::strata {
 namespace {

@@ -50,8 +50,9 @@ void make_farm(const FieldPlan& plan, const KeptField& field, int threads) {
                                             .command = "measure_plots run"});
   lidar::FlyOptions flight = plan.flight;
   flight.threads = threads;
+  flight.replace = true;
   const TemporaryPath scan(field.cloud.parent_path() / ".scan");
-  lidar::fly(farm, scan.path(), flight, true);
+  lidar::fly(farm, scan.path(), flight);
   std::vector<Eigen::Vector3f> points = scan::read_positions(scan.path() / "cloud.pcd");
   if (plan.most_points) thin(points, *plan.most_points, plan.seed);
   RandomStream random(plan.seed, random_purpose("strata/beside"), 0);

@@ -7,10 +7,9 @@
 #include <set>
 #include <utility>
 
-#include "methods/lattice/lattice.h"
-
 #include "core/error.h"
 #include "core/stopwatch.h"
+#include "methods/lattice/lattice.h"
 #include "strata/hand_measured.h"
 
 namespace plotscan::strata {

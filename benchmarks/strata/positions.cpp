@@ -7,7 +7,6 @@
 #include <string>
 
 #include "cloud/field_cloud.h"
-
 #include "core/error.h"
 #include "core/random.h"
 #include "scan/cloud_reader.h"

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <string>
 
-#include "description/load_description.h"
-#include "planting/plot_layout.h"
 #include <Eigen/Geometry>
 
 #include "core/angle.h"
+#include "description/load_description.h"
+#include "planting/plot_layout.h"
 
 namespace plotscan::strata {
 namespace {

@@ -6,7 +6,6 @@
 
 #include "cloud/field_density.h"
 #include "cloud/internal/field_hull.h"
-
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/statistics.h"

@@ -6,9 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "cloud/area.h"
 #include <Eigen/Core>
 
+#include "cloud/area.h"
 #include "core/cloud_files.h"
 #include "core/progress.h"
 

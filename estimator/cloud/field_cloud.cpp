@@ -10,7 +10,6 @@
 #include "cloud/internal/field_hull.h"
 #include "cloud/internal/haze.h"
 #include "cloud/internal/outliers.h"
-
 #include "core/each_index.h"
 #include "core/error.h"
 #include "core/stage.h"
@@ -84,6 +83,24 @@ void crop(FieldCloud& field) {
   field.counts.outside += std::erase_if(field.points, outside);
 }
 
+// Reports up to `done` of the whole work.
+scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, int threads, double done,
+                             const ProgressReport& progress) {
+  const Stage stage("reading");
+  const double expected = record::expected_points(cloud);
+  BackgroundSink adding([&](std::span<const Eigen::Vector3d> points) { store.add(points); },
+                        threads);
+  double read = 0;
+  const auto add = [&](std::span<const Eigen::Vector3d> points) {
+    adding.add(points);
+    read += static_cast<double>(points.size());
+    if (progress) progress(done * std::min(1.0, read / expected));
+  };
+  scan::CloudSummary summary = record::read_positions(cloud, add, {.leave_out_marked = true});
+  adding.finish();
+  return summary;
+}
+
 }  // namespace
 
 FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::string& name) {
@@ -124,28 +141,6 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
   stage.found(std::to_string(field.points.size()) + " points");
   return field;
 }
-
-namespace {
-
-// Reports up to `done` of the whole work.
-scan::CloudSummary read_into(TileStore& store, const CloudFiles& cloud, int threads, double done,
-                             const ProgressReport& progress) {
-  const Stage stage("reading");
-  const double expected = record::expected_points(cloud);
-  BackgroundSink adding([&](std::span<const Eigen::Vector3d> points) { store.add(points); },
-                        threads);
-  double read = 0;
-  const auto add = [&](std::span<const Eigen::Vector3d> points) {
-    adding.add(points);
-    read += static_cast<double>(points.size());
-    if (progress) progress(done * std::min(1.0, read / expected));
-  };
-  scan::CloudSummary summary = record::read_positions(cloud, add, {.leave_out_marked = true});
-  adding.finish();
-  return summary;
-}
-
-}  // namespace
 
 FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress) {

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "cloud/area.h"
-#include "cloud/tile_store.h"
 #include <Eigen/Core>
 
+#include "cloud/area.h"
+#include "cloud/tile_store.h"
 #include "core/cloud_files.h"
 #include "core/progress.h"
 

@@ -5,10 +5,10 @@
 #include <cmath>
 #include <map>
 
-#include "cloud/internal/field_hull.h"
-#include "cloud/point_key.h"
 #include <fmt/core.h>
 
+#include "cloud/internal/field_hull.h"
+#include "cloud/point_key.h"
 #include "core/error.h"
 #include "core/packed_pair.h"
 #include "core/statistics.h"

@@ -7,9 +7,10 @@
 #include <unordered_map>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "cloud/area.h"
 #include "cloud/tile_store.h"
-#include <Eigen/Core>
 
 namespace plotscan::cloud {
 

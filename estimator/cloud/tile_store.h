@@ -10,8 +10,9 @@
 #include <unordered_map>
 #include <vector>
 
-#include "cloud/point_key.h"
 #include <Eigen/Core>
+
+#include "cloud/point_key.h"
 
 namespace plotscan::cloud {
 

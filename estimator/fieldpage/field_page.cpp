@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "fieldpage/field_page.h"
 
-#include "farmfolder/terrain_ply.h"
-
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
 #include "estimate/ground_grids.h"
+#include "farmfolder/terrain_ply.h"
 #include "fieldpage/shown.h"
 
 namespace plotscan::fieldpage {

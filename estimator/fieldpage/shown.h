@@ -4,8 +4,6 @@
 #include <cstddef>
 #include <vector>
 
-#include "terrain/terrain.h"
-
 #include "core/cloud_files.h"
 #include "core/progress.h"
 #include "estimate/estimate.h"
@@ -13,6 +11,7 @@
 #include "report/shown_field.h"
 #include "score/measured_table.h"
 #include "score/score.h"
+#include "terrain/terrain.h"
 
 namespace plotscan::fieldpage {
 

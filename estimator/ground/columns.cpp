@@ -133,49 +133,6 @@ double usual_density(Raster raster) {
   return raster.points_per_count * usual_count(raster) / (raster.step_m * raster.step_m);
 }
 
-}  // namespace
-
-double cell_for(double density_m2) {
-  constexpr double kPointsOfCell = 2, kNarrowest_m = 0.2, kWidest_m = 10;
-  return std::clamp(std::sqrt(kPointsOfCell / density_m2), kNarrowest_m, kWidest_m);
-}
-
-Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> step_m) {
-  const Raster raster = raster_of(points);
-  const double cell_m = step_m.value_or(cell_for(usual_density(raster)));
-  const double least = std::max(1.0, kSparse * usual_count(raster));
-  const auto dense = [&](int column, int row) { return raster.count(column, row) >= least; };
-  std::array<int, 4> box = {raster.columns, raster.rows, -1, -1};
-  for (int row = 0; row < raster.rows; ++row) {
-    for (int column = 0; column < raster.columns; ++column) {
-      if (!dense(column, row)) continue;
-      int neighbours = -1;
-      for (int y = row - 1; y <= row + 1; ++y) {
-        for (int x = column - 1; x <= column + 1; ++x) neighbours += dense(x, y);
-      }
-      const bool small = raster.columns < 4 || raster.rows < 4;
-      if (neighbours < kDenseNeighbours && !small) continue;
-      box = {std::min(box[0], column), std::min(box[1], row), std::max(box[2], column),
-             std::max(box[3], row)};
-    }
-  }
-  if (box[2] < 0) box = {0, 0, raster.columns - 1, raster.rows - 1};
-  const Eigen::Array2d low = raster.low + raster.step_m * Eigen::Array2d(box[0], box[1]);
-  const Eigen::Array2d size =
-      raster.step_m * Eigen::Array2d(box[2] - box[0] + 1, box[3] - box[1] + 1);
-  const Eigen::Array2d nodes = (size / cell_m).ceil().max(2) + 1;
-  if (nodes.prod() > kMostNodes) {
-    throw InputError("the cloud covers too large an area for a ground grid of " +
-                     std::to_string(cell_m) + " m; cut it to the field");
-  }
-  return {.origin = low.matrix(),
-          .cell_m = cell_m,
-          .columns = static_cast<int>(nodes.x()),
-          .rows = static_cast<int>(nodes.y())};
-}
-
-namespace {
-
 // The node that each point lies nearest to.
 std::vector<std::uint32_t> nodes_of(std::span<const Eigen::Vector3f> points, const Grid& grid) {
   std::vector<std::uint32_t> nodes(points.size());
@@ -200,39 +157,6 @@ std::vector<std::uint32_t> even_bands(const std::vector<std::uint32_t>& first, s
   ends.push_back(static_cast<std::uint32_t>(first.size()) - 1);
   return ends;
 }
-
-}  // namespace
-
-Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid) {
-  Columns columns{.grid = grid, .base = base_of(points, grid)};
-  const std::vector<std::uint32_t> nodes = nodes_of(points, grid);
-  columns.first.assign(grid.nodes() + 1, 0);
-  for (const std::uint32_t node : nodes) {
-    if (node != kOutside) ++columns.first[node + 1];
-  }
-  for (std::size_t i = 0; i < grid.nodes(); ++i) columns.first[i + 1] += columns.first[i];
-  columns.returns.resize(columns.first.back());
-  // Each task looks through all points, and writes the returns of its own band in their order.
-  const auto bands = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
-  const std::vector<std::uint32_t> band_ends = even_bands(columns.first, bands);
-  std::vector<std::uint32_t> next(columns.first.begin(), columns.first.end() - 1);
-  const Eigen::Vector2f slope = (grid.cell_m * columns.base.slope).cast<float>();
-  tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t band) {
-    for (std::size_t i = 0; i < points.size(); ++i) {
-      const std::uint32_t node = nodes[i];
-      if (node < band_ends[band] || node >= band_ends[band + 1]) continue;
-      const Eigen::Vector2f place = place_of(points[i], grid);
-      const std::uint32_t row = node / grid.columns, column = node % grid.columns;
-      const float base = static_cast<float>(columns.base.z_m) + slope.dot(place);
-      columns.returns[next[node]++] = {.z_m = points[i].z() - base,
-                                       .dx = part_of_cell(place.x() - static_cast<float>(column)),
-                                       .dy = part_of_cell(place.y() - static_cast<float>(row))};
-    }
-  });
-  return columns;
-}
-
-namespace {
 
 // Moves the returns of a column that may be ground to its front and returns their number.
 std::size_t keep_low(std::span<Return> returns, float reach_m, std::vector<float>& z) {
@@ -276,6 +200,74 @@ Columns part_of(Columns columns, const Keep& keep) {
 }
 
 }  // namespace
+
+double cell_for(double density_m2) {
+  constexpr double kPointsOfCell = 2, kNarrowest_m = 0.2, kWidest_m = 10;
+  return std::clamp(std::sqrt(kPointsOfCell / density_m2), kNarrowest_m, kWidest_m);
+}
+
+Grid grid_of(std::span<const Eigen::Vector3f> points, std::optional<double> step_m) {
+  const Raster raster = raster_of(points);
+  const double cell_m = step_m.value_or(cell_for(usual_density(raster)));
+  const double least = std::max(1.0, kSparse * usual_count(raster));
+  const auto dense = [&](int column, int row) { return raster.count(column, row) >= least; };
+  std::array<int, 4> box = {raster.columns, raster.rows, -1, -1};
+  for (int row = 0; row < raster.rows; ++row) {
+    for (int column = 0; column < raster.columns; ++column) {
+      if (!dense(column, row)) continue;
+      int neighbours = -1;
+      for (int y = row - 1; y <= row + 1; ++y) {
+        for (int x = column - 1; x <= column + 1; ++x) neighbours += dense(x, y);
+      }
+      const bool small = raster.columns < 4 || raster.rows < 4;
+      if (neighbours < kDenseNeighbours && !small) continue;
+      box = {std::min(box[0], column), std::min(box[1], row), std::max(box[2], column),
+             std::max(box[3], row)};
+    }
+  }
+  if (box[2] < 0) box = {0, 0, raster.columns - 1, raster.rows - 1};
+  const Eigen::Array2d low = raster.low + raster.step_m * Eigen::Array2d(box[0], box[1]);
+  const Eigen::Array2d size =
+      raster.step_m * Eigen::Array2d(box[2] - box[0] + 1, box[3] - box[1] + 1);
+  const Eigen::Array2d nodes = (size / cell_m).ceil().max(2) + 1;
+  if (nodes.prod() > kMostNodes) {
+    throw InputError("the cloud covers too large an area for a ground grid of " +
+                     std::to_string(cell_m) + " m; cut it to the field");
+  }
+  return {.origin = low.matrix(),
+          .cell_m = cell_m,
+          .columns = static_cast<int>(nodes.x()),
+          .rows = static_cast<int>(nodes.y())};
+}
+
+Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& grid) {
+  Columns columns{.grid = grid, .base = base_of(points, grid)};
+  const std::vector<std::uint32_t> nodes = nodes_of(points, grid);
+  columns.first.assign(grid.nodes() + 1, 0);
+  for (const std::uint32_t node : nodes) {
+    if (node != kOutside) ++columns.first[node + 1];
+  }
+  for (std::size_t i = 0; i < grid.nodes(); ++i) columns.first[i + 1] += columns.first[i];
+  columns.returns.resize(columns.first.back());
+  // Each task looks through all points, and writes the returns of its own band in their order.
+  const auto bands = static_cast<std::size_t>(tbb::this_task_arena::max_concurrency());
+  const std::vector<std::uint32_t> band_ends = even_bands(columns.first, bands);
+  std::vector<std::uint32_t> next(columns.first.begin(), columns.first.end() - 1);
+  const Eigen::Vector2f slope = (grid.cell_m * columns.base.slope).cast<float>();
+  tbb::parallel_for(std::size_t{0}, bands, [&](std::size_t band) {
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      const std::uint32_t node = nodes[i];
+      if (node < band_ends[band] || node >= band_ends[band + 1]) continue;
+      const Eigen::Vector2f place = place_of(points[i], grid);
+      const std::uint32_t row = node / grid.columns, column = node % grid.columns;
+      const float base = static_cast<float>(columns.base.z_m) + slope.dot(place);
+      columns.returns[next[node]++] = {.z_m = points[i].z() - base,
+                                       .dx = part_of_cell(place.x() - static_cast<float>(column)),
+                                       .dy = part_of_cell(place.y() - static_cast<float>(row))};
+    }
+  });
+  return columns;
+}
 
 Columns low_part(Columns columns, float reach_m) {
   return part_of(std::move(columns),

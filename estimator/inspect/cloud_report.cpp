@@ -5,9 +5,9 @@
 #include <array>
 #include <span>
 
-#include "cloud/coordinate_step.h"
 #include <fmt/core.h>
 
+#include "cloud/coordinate_step.h"
 #include "core/utc_time.h"
 #include "record/positions.h"
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "cloud/field_density.h"
 #include <nlohmann/json.hpp>
 
+#include "cloud/field_density.h"
 #include "core/cloud_files.h"
 #include "scan/cloud_facts.h"
 

@@ -6,8 +6,6 @@
 #include <utility>
 
 #include "cloud/field_density.h"
-#include "methods/agree.h"
-
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_file.h"
@@ -18,6 +16,7 @@
 #include "estimate/measured_heights.h"
 #include "estimate/plot_map.h"
 #include "estimate/plot_tables.h"
+#include "methods/agree.h"
 #include "record/positions.h"
 
 namespace plotscan::methods {
@@ -170,6 +169,38 @@ void take_system(const scan::CloudSystem& system, const RunOptions& options,
   estimate.diagnostics.notes = std::move(notes);
 }
 
+// What may be told of the plots and was not, the most helpful first.
+std::vector<std::string> hints_left(const RunOptions& options) {
+  const lattice::Options& told = options.lattice;
+  std::vector<std::string> hints;
+  if (!told.plot_width_m && !told.plot_length_m) {
+    hints.emplace_back("give the plots' sides with --plot-width and --plot-length");
+  } else if (!told.plot_width_m || !told.plot_length_m) {
+    hints.emplace_back(told.plot_width_m ? "give --plot-length as well"
+                                         : "give --plot-width as well");
+  } else if (!told.heading_deg) {
+    hints.emplace_back("give --heading as well");
+  } else if (!told.rows || !told.columns) {
+    hints.emplace_back("give --rows and --columns as well");
+  }
+  hints.emplace_back("say where plots are with --boxes");
+  if (!options.crop_box) hints.emplace_back("cut the cloud to them with --crop-box");
+  return hints;
+}
+
+// Advice for an estimate without plots, by what was found and what was told.
+std::string next_step(const RunOptions& options, const estimate::Estimate& estimate) {
+  const double density_m2 = estimate.diagnostics.density_per_m2.value_or(cloud::kPlotsFound_m2);
+  std::vector<std::string> steps;
+  if (density_m2 >= cloud::kLeastSearched_m2) steps = hints_left(options);
+  if (density_m2 < cloud::kPlotsFound_m2) steps.emplace_back("fly lower or slower for more points");
+  if (!estimate.units && estimate.crs.empty())
+    steps.emplace_back("give --units where coordinates are not metres");
+  const std::string last = steps.back();
+  steps.pop_back();
+  return steps.empty() ? last : joined(steps, ", ") + ", or " + last;
+}
+
 }  // namespace
 
 const std::vector<std::string>& method_names() {
@@ -227,42 +258,6 @@ estimate::Estimate run(const RunOptions& options, const ProgressReport& progress
   if (table) table->commit();
   return estimate;
 }
-
-namespace {
-
-// What may be told of the plots and was not, the most helpful first.
-std::vector<std::string> hints_left(const RunOptions& options) {
-  const lattice::Options& told = options.lattice;
-  std::vector<std::string> hints;
-  if (!told.plot_width_m && !told.plot_length_m) {
-    hints.emplace_back("give the plots' sides with --plot-width and --plot-length");
-  } else if (!told.plot_width_m || !told.plot_length_m) {
-    hints.emplace_back(told.plot_width_m ? "give --plot-length as well"
-                                         : "give --plot-width as well");
-  } else if (!told.heading_deg) {
-    hints.emplace_back("give --heading as well");
-  } else if (!told.rows || !told.columns) {
-    hints.emplace_back("give --rows and --columns as well");
-  }
-  hints.emplace_back("say where plots are with --boxes");
-  if (!options.crop_box) hints.emplace_back("cut the cloud to them with --crop-box");
-  return hints;
-}
-
-// Advice for an estimate without plots, by what was found and what was told.
-std::string next_step(const RunOptions& options, const estimate::Estimate& estimate) {
-  const double density_m2 = estimate.diagnostics.density_per_m2.value_or(cloud::kPlotsFound_m2);
-  std::vector<std::string> steps;
-  if (density_m2 >= cloud::kLeastSearched_m2) steps = hints_left(options);
-  if (density_m2 < cloud::kPlotsFound_m2) steps.emplace_back("fly lower or slower for more points");
-  if (!estimate.units && estimate.crs.empty())
-    steps.emplace_back("give --units where coordinates are not metres");
-  const std::string last = steps.back();
-  steps.pop_back();
-  return steps.empty() ? last : joined(steps, ", ") + ", or " + last;
-}
-
-}  // namespace
 
 void require_measured(const RunOptions& options, const estimate::Estimate& estimate) {
   const bool measured = std::ranges::any_of(

@@ -6,13 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "methods/dhami2020/settings.h"
-#include "methods/lattice/settings.h"
 #include <nlohmann/json.hpp>
 
 #include "core/cloud_files.h"
 #include "core/progress.h"
 #include "estimate/plot_numbers.h"
+#include "methods/dhami2020/settings.h"
+#include "methods/lattice/settings.h"
 
 namespace plotscan::methods {
 

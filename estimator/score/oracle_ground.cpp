@@ -5,9 +5,8 @@
 #include <utility>
 
 #include "cloud/points_in_boxes.h"
-#include "methods/dhami2020/voxel_filter.h"
-
 #include "core/statistics.h"
+#include "methods/dhami2020/voxel_filter.h"
 
 namespace plotscan::score {
 namespace {

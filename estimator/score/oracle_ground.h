@@ -4,11 +4,10 @@
 #include <vector>
 
 #include "cloud/cloud_map.h"
-#include "methods/dhami2020/dhami2020.h"
-#include "terrain/terrain.h"
-
 #include "estimate/estimate.h"
+#include "methods/dhami2020/dhami2020.h"
 #include "score/score.h"
+#include "terrain/terrain.h"
 
 namespace plotscan::score {
 

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "description/load_description.h"
 
+#include "core/yaml_section.h"
 #include "description/internal/sections.h"
 #include "description/internal/values.h"
 #include "planting/layout_table.h"
-
-#include "core/yaml_section.h"
 
 namespace plotscan::description {
 namespace {

@@ -7,12 +7,12 @@
 #include <string_view>
 #include <vector>
 
-#include "terrain/terrain.h"
 #include <Eigen/Geometry>
 
 #include "core/geodesy.h"
 #include "core/plot_box.h"
 #include "mesh/mesh.h"
+#include "terrain/terrain.h"
 
 namespace plotscan::farm {
 

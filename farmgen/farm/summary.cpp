@@ -7,13 +7,13 @@
 #include <unordered_map>
 #include <utility>
 
-#include "terrain/extent.h"
 #include <Eigen/Geometry>
 
 #include "core/extent.h"
 #include "core/list_of.h"
 #include "core/statistics.h"
 #include "mesh/measure.h"
+#include "terrain/extent.h"
 
 namespace plotscan::farm {
 namespace {

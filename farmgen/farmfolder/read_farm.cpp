@@ -6,15 +6,14 @@
 #include <unordered_map>
 #include <vector>
 
-#include "farmfolder/internal/plant_table.h"
-#include "farmfolder/internal/world.h"
-#include "farmfolder/plot_table.h"
-#include "farmfolder/terrain_ply.h"
-
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/place_json.h"
 #include "farm/heights.h"
+#include "farmfolder/internal/plant_table.h"
+#include "farmfolder/internal/world.h"
+#include "farmfolder/plot_table.h"
+#include "farmfolder/terrain_ply.h"
 #include "mesh/measure.h"
 #include "mesh/mesh_import.h"
 

@@ -1,17 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmfolder/write_farm.h"
 
-#include "farmfolder/internal/plant_table.h"
-#include "farmfolder/internal/world.h"
-#include "farmfolder/plot_table.h"
-#include "farmfolder/terrain_ply.h"
-#include "sdfxml/elements.h"
-
 #include "core/output_folder.h"
 #include "core/place_json.h"
 #include "core/stage.h"
 #include "farm/surface_colours.h"
+#include "farmfolder/internal/plant_table.h"
+#include "farmfolder/internal/world.h"
+#include "farmfolder/plot_table.h"
+#include "farmfolder/terrain_ply.h"
 #include "mesh/obj.h"
+#include "sdfxml/elements.h"
 
 namespace plotscan::farmfolder {
 namespace fs = std::filesystem;
@@ -89,18 +88,18 @@ nlohmann::json results_of(const farm::Farm& farm) {
 
 }  // namespace
 
-void write_farm(const farm::Farm& farm, const fs::path& folder, bool replace, Manifest origin,
-                const ProgressReport& progress, int threads) {
+void write_farm(const farm::Farm& farm, const fs::path& folder, Manifest origin,
+                const WriteOptions& options, const ProgressReport& progress) {
   const Stage stage("writing");
   const auto report = [&](double share) {
     if (progress) progress(share);
   };
   report(0);
-  OutputFolder output(folder, replace, origin.command, origin.inputs);
+  OutputFolder output(folder, options.replace, origin.command, origin.inputs);
   write_models(output.path(), farm);
-  write_truth(output.path() / "truth", farm, threads);
+  write_truth(output.path() / "truth", farm, options.threads);
   report(kTruthShare);
-  write_world(output.path() / "world.sdf", farm, threads,
+  write_world(output.path() / "world.sdf", farm, options.threads,
               [&](double share) { report(kTruthShare + (kWorldShare - kTruthShare) * share); });
   origin.seed = farm.seed;
   origin.results = results_of(farm);

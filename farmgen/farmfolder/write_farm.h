@@ -9,12 +9,15 @@
 
 namespace plotscan::farmfolder {
 
+struct WriteOptions {
+  bool replace = false;  // an earlier farm at the same place
+  int threads = 1;
+};
+
 // Writes the farm folder of docs/farm-format.md: world.sdf, models/, truth/, manifest.json. The
 // folder appears whole or not at all. `origin` names the command, options and inputs; seed and
-// results are the farm's. With `replace`, an earlier farm at the same place is replaced. Throws
-// InputError when the folder cannot be written or exists. Tables and world are written on `threads`
-// threads.
-void write_farm(const farm::Farm& farm, const std::filesystem::path& folder, bool replace,
-                Manifest origin, const ProgressReport& progress = {}, int threads = 1);
+// results are the farm's. Throws InputError when the folder cannot be written or exists.
+void write_farm(const farm::Farm& farm, const std::filesystem::path& folder, Manifest origin,
+                const WriteOptions& options = {}, const ProgressReport& progress = {});
 
 }  // namespace plotscan::farmfolder

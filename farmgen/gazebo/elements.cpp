@@ -60,7 +60,7 @@ void write_sim_material(sdfxml::XmlFile& xml, const Eigen::Vector3f& colour,
   xml.close();
 }
 
-void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, SurfaceClass label) {
+void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, farm::SurfaceClass label) {
   xml.open("collision", "box_collision");
   xml.text("pose", sdfxml::sdf_numbers(
                        {box.center.x(), box.center.y(), box.center.z(), 0, 0, box.heading_rad}));

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <string>
 
-#include "sdfxml/elements.h"
-#include "sdfxml/xml_file.h"
 #include <Eigen/Geometry>
 
+#include "farm/surface_class.h"
 #include "gazebo/export_options.h"
-#include "gazebo/labels.h"
+#include "sdfxml/elements.h"
+#include "sdfxml/xml_file.h"
 
 // SDF elements of exported worlds and models.
 namespace plotscan::gazebo {
@@ -32,8 +32,6 @@ sdfxml::XmlFile begin_model(const ModelFolder& models, const std::string& name,
                             const std::string& description, bool is_static = true);
 void end_model(sdfxml::XmlFile& xml);
 
-using sdfxml::write_class;
-
 // Begins a <material> with an opaque colour.
 void open_material(sdfxml::XmlWriter& xml, const Eigen::Vector3f& colour);
 
@@ -47,6 +45,6 @@ struct CollisionBox {
   Eigen::Vector3d size = Eigen::Vector3d::Zero();
   double heading_rad = 0;
 };
-void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, SurfaceClass label);
+void write_box_collision(sdfxml::XmlFile& xml, const CollisionBox& box, farm::SurfaceClass label);
 
 }  // namespace plotscan::gazebo

@@ -5,7 +5,6 @@
 #include <set>
 #include <utility>
 
-#include "sdfxml/elements.h"
 #include <fmt/core.h>
 #include <tbb/global_control.h>
 #include <tbb/info.h>
@@ -14,6 +13,7 @@
 #include "core/error.h"
 #include "core/output_folder.h"
 #include "gazebo/internal/world_file.h"
+#include "sdfxml/elements.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;
@@ -23,11 +23,11 @@ namespace {
 constexpr double kMeshShare = 0.9;
 
 // The names of model folders have to differ: a plant model may be called like a plot or the drone.
-void require_different_names(const farm::Farm& farm, const std::vector<PlantGroups>& groups,
+void require_different_names(const farm::Farm& farm, const std::vector<MergedModel>& merged,
                              bool drone) {
   std::set<std::string> taken = {sdfxml::kTerrainModel};
   if (drone) taken.insert(kDroneModel);
-  for (const PlantGroups& group : groups) taken.insert(group.name);
+  for (const MergedModel& model : merged) taken.insert(model.name);
   for (const farm::PlantModel& model : farm.models) {
     if (!taken.insert(model.name).second) {
       throw InputError(fmt::format(
@@ -51,15 +51,6 @@ void require_possible(const ExportOptions& options) {
   }
 }
 
-EntityCounts write_models(const ModelFolder& models, const farm::Farm& farm,
-                          const std::vector<PlantGroups>& groups, const PlantSurfaces& surfaces,
-                          const ExportOptions& options, const ProgressReport& progress) {
-  EntityCounts counts = write_terrain_model(models, farm);
-  counts += write_merged_plants(models, farm, groups, surfaces, options, progress);
-  if (options.drone) counts += write_drone_model(models, options.lidar, farm.anchor.has_value());
-  return counts;
-}
-
 EntityCounts write_worlds(const fs::path& folder, const World& world) {
   if (world.options.gazebo == Gazebo::classic)
     return write_world(folder / "world.sdf", world, PluginNames::none);
@@ -78,19 +69,23 @@ ExportSummary write_export(const fs::path& farm_folder, const farm::Farm& farm,
                            const fs::path& folder, const ExportOptions& options, Manifest origin,
                            const ProgressReport& progress) {
   progress(0);
-  const std::vector<PlantGroups> groups =
-      options.merge == Merge::none ? std::vector<PlantGroups>{} : plant_groups(farm, options.merge);
-  require_different_names(farm, groups, options.drone);
+  const std::vector<MergedModel> merged = options.merge == Merge::none
+                                              ? std::vector<MergedModel>{}
+                                              : merged_models(farm, options.merge);
+  require_different_names(farm, merged, options.drone);
   OutputFolder output(folder, options.replace, origin.command, {{farm_folder}});
   const ModelFolder models{.path = output.path() / "models", .gazebo = options.gazebo};
   const PlantSurfaces surfaces = plant_surfaces(farm, options.lod);
-  ExportSummary summary{.counts = {}, .plants = farm.plants.size()};
-  summary.counts = write_models(models, farm, groups, surfaces, options,
-                                [&](double share) { progress(kMeshShare * share); });
-  const std::vector<SinglePlant> single_plants = write_single_plants(models, farm, surfaces);
+  const ExportedPlants plants{models, farm, surfaces, options.collision};
+  ExportSummary summary{.counts = write_terrain_model(models, farm), .plants = farm.plants.size()};
+  summary.counts +=
+      write_merged_plants(plants, merged, [&](double share) { progress(kMeshShare * share); });
+  if (options.drone)
+    summary.counts += write_drone_model(models, options.lidar, farm.anchor.has_value());
+  const std::vector<SinglePlant> single_plants = write_single_plants(plants);
   summary.counts += write_worlds(
       output.path(),
-      {.farm = farm, .options = options, .groups = groups, .single_plants = single_plants});
+      {.farm = farm, .options = options, .merged = merged, .single_plants = single_plants});
   fs::copy(farm_folder / "truth", output.path() / "truth", fs::copy_options::recursive);
   if (options.drone) write_fly_script(output.path() / "fly_drone.sh", farm.name, options.gazebo);
   write_readme(output.path() / "README.md", farm, options, summary.counts);

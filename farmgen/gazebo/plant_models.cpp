@@ -32,14 +32,15 @@ bool has_sim_material(Gazebo gazebo, const mesh::Material& material) {
   return gazebo == Gazebo::sim && material.mask == nullptr;
 }
 
-SinglePlant write_single_mesh(const ModelFolder& models, const std::string& name,
-                              const std::vector<Surface>& parts, const PlantSurfaces& surfaces) {
-  const fs::path folder = mesh_folder(models, name);
-  const fs::path images = models.path / name / kImages;
+SinglePlant write_single_mesh(const ExportedPlants& plants, std::size_t model) {
+  const std::string& name = plants.farm.models[model].name;
+  const PlantSurfaces& surfaces = plants.surfaces;
+  const fs::path folder = mesh_folder(plants.folder, name);
+  const fs::path images = plants.folder.path / name / kImages;
   std::vector<mesh::MtlEntry> entries;
   SinglePlant plant{.uri = mesh_uri(name, name + ".obj")};
   ObjFile obj(folder / (name + ".obj"), name + ".mtl", kPlantNormals);
-  for (const Surface& surface : parts) {
+  for (const Surface& surface : surfaces.models[model]) {
     const mesh::Material& material = surfaces.materials[surface.material];
     entries.push_back({.name = surfaces.names[surface.material],
                        .material = material,
@@ -63,69 +64,68 @@ struct MergedMesh {
   std::uint64_t triangles = 0;
 };
 
-// Around all plants of the group, along its heading, in the link's frame.
-CollisionBox box_around(const PlantGroup& group, const PlantSurfaces& surfaces) {
-  const Eigen::AngleAxisd link_from_box(group.heading_rad, Eigen::Vector3d::UnitZ());
+// Around all plants of the link, along its heading, in the link's frame.
+CollisionBox box_around(const MergedLink& link, const PlantSurfaces& surfaces) {
+  const Eigen::AngleAxisd link_from_box(link.heading_rad, Eigen::Vector3d::UnitZ());
   Eigen::AlignedBox3d box;
-  for (const farm::Plant* plant : group.plants) {
+  for (const farm::Plant* plant : link.plants) {
     const Eigen::Affine3d box_from_plant = link_from_box.inverse() *
-                                           Eigen::Translation3d(-group.origin) *
+                                           Eigen::Translation3d(-link.origin) *
                                            farm::world_from_plant(*plant);
     for (const Surface& surface : surfaces.models[plant->model])
       for (const Eigen::Vector3f& v : surface.vertices)
         box.extend(box_from_plant * v.cast<double>());
   }
-  return {.center = link_from_box * box.center(),
-          .size = box.sizes(),
-          .heading_rad = group.heading_rad};
+  return {
+      .center = link_from_box * box.center(), .size = box.sizes(), .heading_rad = link.heading_rad};
 }
 
 // Writes models of merged plants: first the meshes of their links, then the models.
 class MergedPlants {
  public:
-  MergedPlants(const ModelFolder& models, const farm::Farm& farm, const PlantSurfaces& surfaces,
-               Collision collision)
-      : models_(models), farm_(farm), surfaces_(surfaces), collision_(collision) {}
+  explicit MergedPlants(const ExportedPlants& plants) : plants_(plants) {}
 
   // The meshes of a link, one a material.
-  std::vector<MergedMesh> write_meshes(const std::string& model, const PlantGroup& group) const {
+  std::vector<MergedMesh> write_meshes(const std::string& model, const MergedLink& link) const {
     std::set<std::size_t> materials;
-    for (const farm::Plant* plant : group.plants)
-      for (const Surface& surface : surfaces_.models[plant->model])
+    for (const farm::Plant* plant : link.plants)
+      for (const Surface& surface : plants_.surfaces.models[plant->model])
         materials.insert(surface.material);
     return list_of(materials,
-                   [&](std::size_t material) { return write_mesh(model, group, material); });
+                   [&](std::size_t material) { return write_mesh(model, link, material); });
   }
 
   // The description of a model whose meshes are written.
-  EntityCounts write_model(const PlantGroups& groups,
+  EntityCounts write_model(const MergedModel& model,
                            const std::vector<std::vector<MergedMesh>>& meshes) const {
     EntityCounts counts{.models = 1};
-    sdfxml::XmlFile xml = begin_model(models_, groups.name, "Plants of the farm " + farm_.name);
-    for (std::size_t i = 0; i < groups.links.size(); ++i)
-      counts += write_link(xml, groups, groups.links[i], meshes[i]);
+    sdfxml::XmlFile xml =
+        begin_model(plants_.folder, model.name, "Plants of the farm " + plants_.farm.name);
+    for (std::size_t i = 0; i < model.links.size(); ++i)
+      counts += write_link(xml, model, model.links[i], meshes[i]);
     end_model(xml);
     return counts;
   }
 
  private:
-  MergedMesh write_mesh(const std::string& model, const PlantGroup& group,
+  MergedMesh write_mesh(const std::string& model, const MergedLink& link,
                         std::size_t material) const {
-    const fs::path folder = mesh_folder(models_, model);
-    const std::string& name = surfaces_.names[material];
-    const std::string stem = group.mesh_prefix + name;
+    const fs::path folder = mesh_folder(plants_.folder, model);
+    const std::string& name = plants_.surfaces.names[material];
+    const std::string stem = link.mesh_prefix + name;
     ObjFile obj(folder / (stem + ".obj"), stem + ".mtl", kPlantNormals);
     mesh::write_mtl(folder / (stem + ".mtl"),
                     {{.name = name,
-                      .material = surfaces_.materials[material],
+                      .material = plants_.surfaces.materials[material],
                       .images = "../../" + images_of(material)}},
                     kMatt);
     obj.use_material(name);
-    const bool one_sided = !has_sim_material(models_.gazebo, surfaces_.materials[material]);
-    for (const farm::Plant* plant : group.plants) {
+    const bool one_sided =
+        !has_sim_material(plants_.folder.gazebo, plants_.surfaces.materials[material]);
+    for (const farm::Plant* plant : link.plants) {
       const Eigen::Affine3d link_from_plant =
-          Eigen::Translation3d(-group.origin) * farm::world_from_plant(*plant);
-      for (const Surface& surface : surfaces_.models[plant->model])
+          Eigen::Translation3d(-link.origin) * farm::world_from_plant(*plant);
+      for (const Surface& surface : plants_.surfaces.models[plant->model])
         if (surface.material == material)
           obj.add(surface, link_from_plant, one_sided && !surface.closed);
     }
@@ -133,39 +133,39 @@ class MergedPlants {
     return {.material = material, .file = stem + ".obj", .triangles = obj.triangles()};
   }
 
-  EntityCounts write_link(sdfxml::XmlFile& xml, const PlantGroups& groups, const PlantGroup& group,
+  EntityCounts write_link(sdfxml::XmlFile& xml, const MergedModel& model, const MergedLink& link,
                           const std::vector<MergedMesh>& meshes) const {
     EntityCounts counts{.links = 1};
-    xml.open("link", group.link);
-    const Eigen::Vector3d place = group.origin - groups.origin;
+    xml.open("link", link.name);
+    const Eigen::Vector3d place = link.origin - model.origin;
     if (!place.isZero(0)) xml.text("pose", sdfxml::sdf_pose(place, Eigen::Quaterniond::Identity()));
-    for (const MergedMesh& mesh : meshes) counts += write_visual(xml, groups, mesh);
-    if (collision_ == Collision::box) {
-      write_box_collision(xml, box_around(group, surfaces_), groups.label);
+    for (const MergedMesh& mesh : meshes) counts += write_visual(xml, model, mesh);
+    if (plants_.collision == Collision::box) {
+      write_box_collision(xml, box_around(link, plants_.surfaces), model.label);
       ++counts.collisions;
     }
     xml.close();
     return counts;
   }
 
-  EntityCounts write_visual(sdfxml::XmlFile& xml, const PlantGroups& groups,
+  EntityCounts write_visual(sdfxml::XmlFile& xml, const MergedModel& model,
                             const MergedMesh& mesh) const {
-    const mesh::Material& material = surfaces_.materials[mesh.material];
-    const std::string& name = surfaces_.names[mesh.material];
-    const std::string uri = mesh_uri(groups.name, mesh.file);
+    const mesh::Material& material = plants_.surfaces.materials[mesh.material];
+    const std::string& name = plants_.surfaces.names[mesh.material];
+    const std::string uri = mesh_uri(model.name, mesh.file);
     xml.open("visual", name);
     sdfxml::write_mesh_geometry(xml, uri);
-    if (has_sim_material(models_.gazebo, material)) {
+    if (has_sim_material(plants_.folder.gazebo, material)) {
       write_sim_material(
           xml, material.colour,
           material.texture ? "model://" + images_of(mesh.material) + material.texture->name : "");
     }
-    write_class(xml, groups.label);
+    write_class(xml, model.label);
     xml.close();
     EntityCounts counts{.visuals = 1, .triangles = mesh.triangles};
-    if (collision_ == Collision::mesh) {
+    if (plants_.collision == Collision::mesh) {
       // In SDF no two parts of a link have one name.
-      sdfxml::write_mesh_part(xml, "collision", name + ".collision", uri, groups.label);
+      sdfxml::write_mesh_part(xml, "collision", name + ".collision", uri, model.label);
       ++counts.collisions;
     }
     return counts;
@@ -174,17 +174,15 @@ class MergedPlants {
   // The folder of a material's images, from that of all models: the first model that shows it has
   // them.
   std::string images_of(std::size_t material) const {
-    const auto model = std::ranges::find_if(surfaces_.models, [&](const auto& surfaces) {
+    const auto model = std::ranges::find_if(plants_.surfaces.models, [&](const auto& surfaces) {
       return std::ranges::count(surfaces, material, &Surface::material) > 0;
     });
-    return farm_.models[static_cast<std::size_t>(model - surfaces_.models.begin())].name + "/" +
-           kImages;
+    return plants_.farm.models[static_cast<std::size_t>(model - plants_.surfaces.models.begin())]
+               .name +
+           "/" + kImages;
   }
 
-  const ModelFolder& models_;
-  const farm::Farm& farm_;
-  const PlantSurfaces& surfaces_;
-  Collision collision_;
+  const ExportedPlants& plants_;
 };
 
 }  // namespace
@@ -206,45 +204,43 @@ nlohmann::json counts_json(const EntityCounts& counts) {
           {"triangles", counts.triangles}};
 }
 
-std::vector<SinglePlant> write_single_plants(const ModelFolder& models, const farm::Farm& farm,
-                                             const PlantSurfaces& surfaces) {
-  std::vector<SinglePlant> plants;
-  const std::vector<SurfaceClass> classes = farm::classes_of_models(farm);
+std::vector<SinglePlant> write_single_plants(const ExportedPlants& plants) {
+  const farm::Farm& farm = plants.farm;
+  std::vector<SinglePlant> written;
+  const std::vector<farm::SurfaceClass> classes = farm::classes_of_models(farm);
   for (std::size_t i = 0; i < farm.models.size(); ++i) {
-    const std::string& name = farm.models[i].name;
-    plants.push_back(write_single_mesh(models, name, surfaces.models[i], surfaces));
-    sdfxml::XmlFile xml =
-        begin_model(models, name, "Plant of the farm " + farm.name + ", foot at the origin");
+    written.push_back(write_single_mesh(plants, i));
+    sdfxml::XmlFile xml = begin_model(plants.folder, farm.models[i].name,
+                                      "Plant of the farm " + farm.name + ", foot at the origin");
     xml.open("link", "link");
-    sdfxml::write_mesh_part(xml, "visual", "visual", plants.back().uri, classes[i]);
+    sdfxml::write_mesh_part(xml, "visual", "visual", written.back().uri, classes[i]);
     xml.close();
     end_model(xml);
   }
-  return plants;
+  return written;
 }
 
-EntityCounts write_merged_plants(const ModelFolder& models, const farm::Farm& farm,
-                                 const std::vector<PlantGroups>& groups,
-                                 const PlantSurfaces& surfaces, const ExportOptions& options,
+EntityCounts write_merged_plants(const ExportedPlants& plants,
+                                 const std::vector<MergedModel>& models,
                                  const ProgressReport& progress) {
   std::vector<std::pair<std::size_t, std::size_t>> links;
-  std::vector<std::vector<std::vector<MergedMesh>>> meshes(groups.size());
-  for (std::size_t i = 0; i < groups.size(); ++i) {
-    meshes[i].resize(groups[i].links.size());
-    for (std::size_t k = 0; k < groups[i].links.size(); ++k) links.emplace_back(i, k);
+  std::vector<std::vector<std::vector<MergedMesh>>> meshes(models.size());
+  for (std::size_t i = 0; i < models.size(); ++i) {
+    meshes[i].resize(models[i].links.size());
+    for (std::size_t k = 0; k < models[i].links.size(); ++k) links.emplace_back(i, k);
   }
-  const MergedPlants writer(models, farm, surfaces, options.collision);
+  const MergedPlants writer(plants);
   std::mutex reporting;
   std::size_t done = 0;
   tbb::parallel_for(std::size_t{0}, links.size(), [&](std::size_t i) {
     const auto [model, link] = links[i];
-    meshes[model][link] = writer.write_meshes(groups[model].name, groups[model].links[link]);
+    meshes[model][link] = writer.write_meshes(models[model].name, models[model].links[link]);
     const std::lock_guard lock(reporting);
     progress(static_cast<double>(++done) / static_cast<double>(links.size()));
   });
   EntityCounts counts;
-  for (std::size_t i = 0; i < groups.size(); ++i)
-    counts += writer.write_model(groups[i], meshes[i]);
+  for (std::size_t i = 0; i < models.size(); ++i)
+    counts += writer.write_model(models[i], meshes[i]);
   return counts;
 }
 
@@ -265,7 +261,7 @@ EntityCounts write_terrain_model(const ModelFolder& models, const farm::Farm& fa
   sdfxml::XmlFile xml = begin_model(models, name, "Terrain of the farm " + farm.name);
   xml.open("link", "link");
   for (const char* part : {"visual", "collision"})
-    sdfxml::write_mesh_part(xml, part, part, uri, SurfaceClass::ground);
+    sdfxml::write_mesh_part(xml, part, part, uri, farm::SurfaceClass::ground);
   xml.close();
   end_model(xml);
   return {.models = 1, .links = 1, .visuals = 1, .collisions = 1, .triangles = obj.triangles()};

@@ -10,7 +10,7 @@
 #include "farm/farm.h"
 #include "gazebo/elements.h"
 #include "gazebo/export_options.h"
-#include "gazebo/groups.h"
+#include "gazebo/merged_models.h"
 #include "gazebo/surfaces.h"
 
 namespace plotscan::gazebo {
@@ -36,14 +36,20 @@ struct SinglePlant {
   Eigen::AlignedBox3d bounds = {};  // of the mesh as it is
 };
 
-// Writes one model a plant mesh, models/NAME: one plant, with the images of its materials.
-std::vector<SinglePlant> write_single_plants(const ModelFolder& models, const farm::Farm& farm,
-                                             const PlantSurfaces& surfaces);
+// The plants of an export.
+struct ExportedPlants {
+  const ModelFolder& folder;
+  const farm::Farm& farm;
+  const PlantSurfaces& surfaces;
+  Collision collision;
+};
 
-// Writes one model a group: its meshes, one a material and link, and its description.
-EntityCounts write_merged_plants(const ModelFolder& models, const farm::Farm& farm,
-                                 const std::vector<PlantGroups>& groups,
-                                 const PlantSurfaces& surfaces, const ExportOptions& options,
+// Writes one model a plant mesh, models/NAME: one plant, with the images of its materials.
+std::vector<SinglePlant> write_single_plants(const ExportedPlants& plants);
+
+// Writes the models: their meshes, one a material and link, and their descriptions.
+EntityCounts write_merged_plants(const ExportedPlants& plants,
+                                 const std::vector<MergedModel>& models,
                                  const ProgressReport& progress);
 
 // The terrain: visual and collision with its mesh.

@@ -8,7 +8,7 @@
 
 #include <Eigen/Geometry>
 
-#include "gazebo/labels.h"
+#include "farm/surface_class.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::gazebo {
@@ -17,7 +17,7 @@ namespace plotscan::gazebo {
 struct PlacedSurface {
   std::uint32_t mesh = 0;  // index into StaticWorld::meshes
   Eigen::Affine3d world_from_mesh = Eigen::Affine3d::Identity();
-  SurfaceClass kind = SurfaceClass::other;
+  farm::SurfaceClass kind = farm::SurfaceClass::other;
   std::uint32_t plot = 0;   // 0: none
   std::uint32_t plant = 0;  // 0: none
 };

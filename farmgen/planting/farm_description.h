@@ -8,13 +8,12 @@
 #include <string>
 #include <vector>
 
+#include "core/geodesy.h"
 #include "planting/model_description.h"
 #include "planting/plants_description.h"
 #include "planting/plots_description.h"
 #include "planting/weeds_description.h"
 #include "terrain/terrain_description.h"
-
-#include "core/geodesy.h"
 
 namespace plotscan::planting {
 

@@ -7,10 +7,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include "farmfolder/plot_table.h"
-#include "planting/internal/plants.h"
-#include "planting/plot_layout.h"
-#include "terrain/make_terrain.h"
 #include <fmt/core.h>
 
 #include "core/error.h"
@@ -18,6 +14,10 @@
 #include "core/stage.h"
 #include "core/statistics.h"
 #include "farm/heights.h"
+#include "farmfolder/plot_table.h"
+#include "planting/internal/plants.h"
+#include "planting/plot_layout.h"
+#include "terrain/make_terrain.h"
 
 namespace plotscan::planting {
 namespace {

@@ -3,9 +3,8 @@
 
 #include <cstdint>
 
-#include "planting/farm_description.h"
-
 #include "farm/farm.h"
+#include "planting/farm_description.h"
 
 namespace plotscan::planting {
 

@@ -7,11 +7,10 @@
 #include <limits>
 #include <string_view>
 
-#include "planting/plants_description.h"
-#include "terrain/terrain.h"
-
 #include "core/angle.h"
 #include "core/csv.h"
+#include "planting/plants_description.h"
+#include "terrain/terrain.h"
 
 namespace plotscan::planting {
 namespace {

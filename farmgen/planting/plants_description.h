@@ -6,11 +6,10 @@
 #include <string>
 #include <vector>
 
+#include "core/range.h"
 #include "planting/model_description.h"
 #include "planting/plots_description.h"
 #include "planting/trial_design.h"
-
-#include "core/range.h"
 
 namespace plotscan::planting {
 

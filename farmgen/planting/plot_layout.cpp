@@ -6,12 +6,12 @@
 #include <string>
 #include <tuple>
 
-#include "terrain/extent.h"
 #include <fmt/core.h>
 
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "terrain/extent.h"
 
 namespace plotscan::planting {
 namespace {

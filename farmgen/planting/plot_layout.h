@@ -7,10 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "planting/farm_description.h"
-
 #include "core/trial_layout.h"
 #include "farm/farm.h"
+#include "planting/farm_description.h"
 
 namespace plotscan::planting {
 

@@ -8,6 +8,23 @@
 #include "core/number_text.h"
 
 namespace plotscan::sdfxml {
+namespace {
+
+// Roll, pitch, yaw as SDF has them: rotation = Rz(yaw) Ry(pitch) Rx(roll).
+Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
+  const double sin_pitch = std::clamp(2 * (q.w() * q.y() - q.z() * q.x()), -1.0, 1.0);
+  // Within a microradian of straight up or down, roll and yaw turn about the same axis.
+  constexpr double kGimbalLock = 1 - 1e-12;
+  if (std::abs(sin_pitch) > kGimbalLock) {
+    const double sign = std::copysign(1.0, sin_pitch);
+    return {0, sign * kPi / 2, -2 * sign * std::atan2(q.x(), q.w())};
+  }
+  return {std::atan2(2 * (q.w() * q.x() + q.y() * q.z()), 1 - 2 * (q.x() * q.x() + q.y() * q.y())),
+          std::asin(sin_pitch),
+          std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()))};
+}
+
+}  // namespace
 
 std::string plot_element_name(std::uint32_t plot) { return "plot_" + std::to_string(plot); }
 
@@ -25,19 +42,6 @@ std::string sdf_numbers(std::initializer_list<double> values) {
   std::string text;
   append_sdf_numbers(text, values);
   return text;
-}
-
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& q) {
-  const double sin_pitch = std::clamp(2 * (q.w() * q.y() - q.z() * q.x()), -1.0, 1.0);
-  // Within a microradian of straight up or down, roll and yaw turn about the same axis.
-  constexpr double kGimbalLock = 1 - 1e-12;
-  if (std::abs(sin_pitch) > kGimbalLock) {
-    const double sign = std::copysign(1.0, sin_pitch);
-    return {0, sign * kPi / 2, -2 * sign * std::atan2(q.x(), q.w())};
-  }
-  return {std::atan2(2 * (q.w() * q.x() + q.y() * q.z()), 1 - 2 * (q.x() * q.x() + q.y() * q.y())),
-          std::asin(sin_pitch),
-          std::atan2(2 * (q.w() * q.z() + q.x() * q.y()), 1 - 2 * (q.y() * q.y() + q.z() * q.z()))};
 }
 
 void append_sdf_pose(std::string& text, const Eigen::Vector3d& position,

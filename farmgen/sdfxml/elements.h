@@ -5,10 +5,10 @@
 #include <initializer_list>
 #include <string>
 
-#include "sdfxml/xml_file.h"
 #include <Eigen/Geometry>
 
 #include "farm/surface_class.h"
+#include "sdfxml/xml_file.h"
 
 // What SDF worlds of any kind are made of.
 namespace plotscan::sdfxml {
@@ -25,9 +25,6 @@ std::string plant_element_name(std::uint32_t plant);
 // The numbers with blanks between them, each the shortest text that reads back as the same number.
 std::string sdf_numbers(std::initializer_list<double> values);
 void append_sdf_numbers(std::string& text, std::initializer_list<double> values);
-
-// Roll, pitch, yaw as SDF has them: rotation = Rz(yaw) Ry(pitch) Rx(roll).
-Eigen::Vector3d roll_pitch_yaw(const Eigen::Quaterniond& rotation);
 
 // "x y z roll pitch yaw", metres and radians.
 std::string sdf_pose(const Eigen::Vector3d& position, const Eigen::Quaterniond& rotation);

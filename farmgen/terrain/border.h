@@ -3,8 +3,9 @@
 
 #include <vector>
 
-#include "terrain/terrain.h"
 #include <Eigen/Geometry>
+
+#include "terrain/terrain.h"
 
 namespace plotscan::terrain {
 

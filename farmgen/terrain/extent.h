@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "terrain/terrain.h"
 #include <Eigen/Geometry>
+
+#include "terrain/terrain.h"
 
 namespace plotscan::terrain {
 

@@ -6,16 +6,16 @@
 #include <limits>
 #include <utility>
 
-#include "terrain/extent.h"
-#include "terrain/internal/bases.h"
-#include "terrain/internal/lattice.h"
-#include "terrain/internal/refine.h"
 #include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/list_of.h"
 #include "mesh/mesh_import.h"
+#include "terrain/extent.h"
+#include "terrain/internal/bases.h"
+#include "terrain/internal/lattice.h"
+#include "terrain/internal/refine.h"
 
 namespace plotscan::terrain {
 namespace {

@@ -6,11 +6,11 @@
 #include <optional>
 #include <vector>
 
-#include "terrain/terrain.h"
-#include "terrain/terrain_description.h"
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
+#include "terrain/terrain.h"
+#include "terrain/terrain_description.h"
 
 namespace plotscan::terrain {
 

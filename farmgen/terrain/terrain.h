@@ -6,10 +6,10 @@
 #include <optional>
 #include <vector>
 
-#include "terrain/triangle_grid.h"
 #include <Eigen/Core>
 
 #include "mesh/mesh.h"
+#include "terrain/triangle_grid.h"
 
 namespace plotscan::terrain {
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string_view>
 
 #include "core/temporary_path.h"
 
@@ -24,5 +25,9 @@ class OutputFile {
   std::filesystem::path final_;
   TemporaryPath temporary_;
 };
+
+// Writes a file that holds the text, whole or not at all, in place of one that is there. Throws
+// WriteError when it cannot be written.
+void write_whole_file(const std::filesystem::path& path, std::string_view text);
 
 }  // namespace plotscan

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <CLI/CLI.hpp>
+#include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
 #include "core/progress.h"
@@ -62,6 +63,11 @@ class Program {
 
   // A line for the person at the terminal, on stdout; silent with --json or -q.
   void say(const std::string& line) const;
+  // The same of a format: "{} plots".
+  template <class First, class... Others>
+  void say(fmt::format_string<First, Others...> format, First&& first, Others&&... others) const {
+    say(fmt::vformat(format, fmt::make_format_args(first, others...)));
+  }
   // A line of long work's log on stderr, where progress() has no terminal for its bar; silent with
   // -q.
   void log(const std::string& line) const;

@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "boundary/values.h"
-
 #include "core/json_text.h"
 #include "core/list_of.h"
 #include "core/plot_features.h"

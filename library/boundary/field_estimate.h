@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plotscan/estimate.h"
-
 #include "estimate/estimate.h"
+#include "plotscan/estimate.h"
 
 namespace plotscan::boundary {
 

@@ -4,9 +4,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "plotscan/error.h"
-
 #include "core/error.h"
+#include "plotscan/error.h"
 
 namespace plotscan::boundary {
 

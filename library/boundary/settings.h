@@ -9,7 +9,6 @@
 #include <variant>
 #include <vector>
 
-#include "plotscan/settings.h"
 #include <Eigen/Core>
 #include <fmt/core.h>
 
@@ -17,6 +16,7 @@
 #include "core/list_of.h"
 #include "core/setting.h"
 #include "core/text.h"
+#include "plotscan/settings.h"
 
 // The rooms' tables of settings (lidar/fly_settings.h, methods/*/settings.h) as the library shows
 // and takes them, whatever their options.

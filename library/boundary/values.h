@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "plotscan/plots.h"
-
 #include "core/plot_box.h"
+#include "plotscan/plots.h"
 
 namespace plotscan::boundary {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library and its benchmark: the one place that knows which Embree the system has.
+// The one place that knows which Embree the system has.
 
 #include <memory>
 #include <type_traits>

@@ -104,13 +104,13 @@ struct FlownPlace {
 };
 
 FlySummary fly_over(const FlownPlace& place, const std::filesystem::path& scan_folder,
-                    const FlyOptions& options, bool replace, const ProgressReport& progress) {
+                    const FlyOptions& options, const ProgressReport& progress) {
   const auto& [site, scene, plants] = place;
   require_valid(options);
   const sensor::Sensor sensor = sensor::load_sensor(options.sensor);
   validate(options, sensor);
   const double spin_hz = sensor::chosen_spin_hz(sensor, options.spin_hz);
-  OutputFolder output(scan_folder, replace, "lidarsim fly", inputs_of(options));
+  OutputFolder output(scan_folder, options.replace, "lidarsim fly", inputs_of(options));
   const flight::PoseErrors errors =
       flight::combined(flight::pose_error_preset(options.pose_error), options.pose_errors);
   const DroneFlight flight = fly_drone(site, scene, errors, options);
@@ -143,20 +143,20 @@ FlySummary fly_over(const FlownPlace& place, const std::filesystem::path& scan_f
 }  // namespace
 
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
-               const FlyOptions& options, bool replace, const ProgressReport& progress) {
-  return fly_over({site, scene, nullptr}, scan_folder, options, replace, progress);
+               const FlyOptions& options, const ProgressReport& progress) {
+  return fly_over({site, scene, nullptr}, scan_folder, options, progress);
 }
 
 FlySummary fly(const Site& site, const SceneContent& content,
-               const std::filesystem::path& scan_folder, const FlyOptions& options, bool replace,
+               const std::filesystem::path& scan_folder, const FlyOptions& options,
                const ProgressReport& progress) {
   const Scene scene(content);
-  return fly_over({site, scene, &content}, scan_folder, options, replace, progress);
+  return fly_over({site, scene, &content}, scan_folder, options, progress);
 }
 
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
-               const FlyOptions& options, bool replace, const ProgressReport& progress) {
-  return fly(site_of(farm), scene_content(farm), scan_folder, options, replace, progress);
+               const FlyOptions& options, const ProgressReport& progress) {
+  return fly(site_of(farm), scene_content(farm), scan_folder, options, progress);
 }
 
 }  // namespace plotscan::lidar

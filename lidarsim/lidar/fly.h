@@ -56,6 +56,7 @@ struct FlyOptions {
   std::uint64_t seed = 1;
   int threads = 1;
   std::vector<std::filesystem::path> inputs = {};  // files read, for the manifest
+  bool replace = false;                            // an existing scan folder
 };
 
 struct FlySummary {
@@ -68,19 +69,18 @@ struct FlySummary {
 // Scans the scene and writes the scan folder: cloud.pcd, trajectory.csv (true), poses.csv
 // (reported), sensor.yaml, manifest.json, and the files of options.formats (docs/scan-format.md).
 // The same scene, site and options give the same bytes, for any number of threads. Throws
-// InputError on impossible options, a broken trajectory, or an existing folder that `replace` does
-// not cover.
+// InputError on impossible options, a broken trajectory, or an existing folder that options.replace
+// does not cover.
 FlySummary fly(const Site& site, const Scene& scene, const std::filesystem::path& scan_folder,
-               const FlyOptions& options, bool replace, const ProgressReport& progress = {});
+               const FlyOptions& options, const ProgressReport& progress = {});
 
 // The same for content whose plants sway if the wind acts on them.
 FlySummary fly(const Site& site, const SceneContent& content,
-               const std::filesystem::path& scan_folder, const FlyOptions& options, bool replace,
+               const std::filesystem::path& scan_folder, const FlyOptions& options,
                const ProgressReport& progress = {});
 
-// The same for a farm. Also throws InputError when a
-// plant names a missing model.
+// The same for a farm. Also throws InputError when a plant names a missing model.
 FlySummary fly(const farm::Farm& farm, const std::filesystem::path& scan_folder,
-               const FlyOptions& options, bool replace, const ProgressReport& progress = {});
+               const FlyOptions& options, const ProgressReport& progress = {});
 
 }  // namespace plotscan::lidar

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lidar/fly_place.h"
 
-#include "farmfolder/read_farm.h"
 #include <fmt/core.h>
 
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "farm/farm.h"
+#include "farmfolder/read_farm.h"
 #include "gazebo/read_world.h"
 #include "lidar/internal/drone_flight.h"
 #include "sensor/sensor.h"
@@ -68,10 +68,10 @@ PlaceScan fly_world(const fs::path& file, const fs::path& scan_folder, FlyPlaceO
       gazebo::read_world(file, {.resource_paths = options.resource_paths});
   options.flight.inputs = world.files;
   const SceneContent content = scene_content(world);
-  return noted({fly(site_of(world.name, content), Scene(content), scan_folder, options.flight,
-                    options.replace, progress),
-                world.notes},
-               options.flight);
+  return noted(
+      {fly(site_of(world.name, content), Scene(content), scan_folder, options.flight, progress),
+       world.notes},
+      options.flight);
 }
 
 }  // namespace
@@ -85,8 +85,7 @@ PlaceScan fly_place(const fs::path& place, const fs::path& scan_folder, FlyPlace
                     !farm.plants.empty() && options.flight.sway.lean_deg_at_5m_s > 0);
   // The farm's manifest holds the hashes of its other files.
   options.flight.inputs = {place / "manifest.json"};
-  return noted({fly(farm, scan_folder, options.flight, options.replace, progress), {}},
-               options.flight);
+  return noted({fly(farm, scan_folder, options.flight, progress), {}}, options.flight);
 }
 
 }  // namespace plotscan::lidar

@@ -13,7 +13,6 @@ namespace plotscan::lidar {
 struct FlyPlaceOptions {
   FlyOptions flight = {};
   std::vector<std::filesystem::path> resource_paths = {};  // searched first for a world's models
-  bool replace = false;                                    // replaces an existing scan
 };
 
 struct PlaceScan {

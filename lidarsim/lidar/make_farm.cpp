@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lidar/make_farm.h"
 
+#include "core/stage.h"
 #include "description/load_description.h"
 #include "farmfolder/write_farm.h"
-#include "planting/generate.h"
-
-#include "core/stage.h"
 #include "lidar/canopy_height.h"
+#include "planting/generate.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -26,11 +25,11 @@ farm::Farm make_farm(const std::filesystem::path& description, const std::filesy
       planting::generate(described, options.seed.value_or(described.seed.value_or(1)));
   measure_canopies(made, options.threads);
   farmfolder::write_farm(
-      made, folder, options.replace,
+      made, folder,
       {.command = options.command,
        .options = {{"description", description.filename().string()}, {"set", options.overrides}},
        .inputs = planting::input_files(described)},
-      progress, options.threads);
+      {.replace = options.replace, .threads = options.threads}, progress);
   return made;
 }
 

@@ -26,7 +26,6 @@ struct CloudWriteOptions {
 // only at the end, the header has a fixed length, and close() writes the number into it.
 class CloudWriter : public PointWriter {
  public:
-  // Throws std::runtime_error when the disk is full.
   void write(std::span<const LabelledPoint> points) override;
   // Writes what is buffered, and the number of points into the header. Without it the file says 0
   // points.
@@ -50,14 +49,12 @@ class CloudWriter : public PointWriter {
 // PCD 0.7, binary (docs/scan-format.md, cloud.pcd) or ascii.
 class PcdWriter : public CloudWriter {
  public:
-  // Throws std::runtime_error when the file cannot be created.
   explicit PcdWriter(const std::filesystem::path& path, const CloudWriteOptions& options = {});
 };
 
 // PLY 1.0, binary_little_endian or ascii: element vertex with the fields of cloud.pcd.
 class PlyWriter : public CloudWriter {
  public:
-  // Throws std::runtime_error when the file cannot be created.
   explicit PlyWriter(const std::filesystem::path& path, const CloudWriteOptions& options = {});
 };
 
@@ -66,7 +63,6 @@ class PlyWriter : public CloudWriter {
 // has 32 bits, it holds at most 116 million points (87 million with an origin).
 class CompressedPcdWriter : public PointWriter {
  public:
-  // Throws std::runtime_error when the file cannot be created.
   CompressedPcdWriter(const std::filesystem::path& path, const Eigen::Vector3d& origin_m,
                       bool labels = true);
 

@@ -39,7 +39,6 @@ struct LasOptions {
 // (docs/formats.md). Bounds and counts are written into the header by close().
 class LasWriter : public PointWriter {
  public:
-  // Throws std::runtime_error, here and below, when the file cannot be written.
   LasWriter(const std::filesystem::path& path, LasOptions options);
 
   // Throws InputError on a point that is too far from the file's offset.

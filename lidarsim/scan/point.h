@@ -29,12 +29,13 @@ struct LabelledPoint {
 // Receives points piece by piece, in the order of firing, from one thread at a time.
 using PointSink = std::function<void(std::span<const LabelledPoint>)>;
 
-// A file that points are streamed to.
+// A file that points are streamed to. Constructors and functions throw WriteError when it cannot be
+// written.
 class PointWriter {
  public:
   virtual ~PointWriter() = default;
 
-  // Points in the order of firing. Throws std::runtime_error when the disk is full.
+  // Points in the order of firing.
   virtual void write(std::span<const LabelledPoint> points) = 0;
   // Finishes the file, which is incomplete without it.
   virtual void close() = 0;

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: a LabelledPoint as PCD and PLY files store it.
-
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -16,8 +14,9 @@ namespace plotscan::scan {
 // The most bytes that pack writes.
 inline constexpr std::size_t kMaxPackedPointSize = 49;
 
-// The fields of a point one after the other, little-endian, without padding: 37 bytes, or 49 where
-// an origin makes x, y and z doubles; 9 less without the labels class, plot and plant.
+// A LabelledPoint as PCD and PLY files store it: its fields one after the other, little-endian,
+// without padding: 37 bytes, or 49 where an origin makes x, y and z doubles; 9 less without the
+// labels class, plot and plant.
 class PointRecord {
  public:
   struct Field {

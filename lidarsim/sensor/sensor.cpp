@@ -137,26 +137,6 @@ void read_risley(const YamlSection& root, Sensor& sensor) {
   sensor.wedges = wedges;
 }
 
-}  // namespace
-
-double sequence_time_s(const Sensor& sensor, double spin_hz) {
-  return sensor.columns_per_turn > 0 ? 1 / (spin_hz * sensor.columns_per_turn) : sensor.sequence_s;
-}
-
-double chosen_spin_hz(const Sensor& sensor, std::optional<double> asked_hz) {
-  if (sensor.wedges) {
-    if (!asked_hz) return 0;
-    throw InputError("sensor " + sensor.name + " does not spin; leave out --spin (spin_hz)");
-  }
-  const double spin_hz = asked_hz.value_or(sensor.default_spin_hz);
-  if (spin_hz >= sensor.min_spin_hz && spin_hz <= sensor.max_spin_hz) return spin_hz;
-  throw InputError("--spin " + format_number(spin_hz) + " must be in [" +
-                   format_number(sensor.min_spin_hz) + ", " + format_number(sensor.max_spin_hz) +
-                   "] Hz for sensor " + sensor.name);
-}
-
-namespace {
-
 Sensor read_sensor(const YamlSection& root, const std::string& description) {
   const bool is_risley = root.choice("kind", {"spinning", "risley"}) == 1;
   Sensor sensor{.name = root.text("name"),
@@ -185,6 +165,22 @@ Sensor read_sensor(const YamlSection& root, const std::string& description) {
 }
 
 }  // namespace
+
+double sequence_time_s(const Sensor& sensor, double spin_hz) {
+  return sensor.columns_per_turn > 0 ? 1 / (spin_hz * sensor.columns_per_turn) : sensor.sequence_s;
+}
+
+double chosen_spin_hz(const Sensor& sensor, std::optional<double> asked_hz) {
+  if (sensor.wedges) {
+    if (!asked_hz) return 0;
+    throw InputError("sensor " + sensor.name + " does not spin; leave out --spin (spin_hz)");
+  }
+  const double spin_hz = asked_hz.value_or(sensor.default_spin_hz);
+  if (spin_hz >= sensor.min_spin_hz && spin_hz <= sensor.max_spin_hz) return spin_hz;
+  throw InputError("--spin " + format_number(spin_hz) + " must be in [" +
+                   format_number(sensor.min_spin_hz) + ", " + format_number(sensor.max_spin_hz) +
+                   "] Hz for sensor " + sensor.name);
+}
 
 Sensor parse_sensor(const std::string& description, const std::filesystem::path& file) {
   return read_sensor(YamlSection::parse(description, file), description);

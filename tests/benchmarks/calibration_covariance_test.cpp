@@ -2,10 +2,10 @@
 // The fitted covariance against the likelihood itself, computed densely, and against a known one.
 #include <cmath>
 
-#include "calibration/fit_covariance.h"
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "calibration/fit_covariance.h"
 #include "core/random.h"
 
 namespace plotscan::calibration {

@@ -4,11 +4,11 @@
 #include <set>
 #include <span>
 
+#include <gtest/gtest.h>
+
 #include "calibration/fit.h"
 #include "calibration/groups.h"
 #include "calibration/leave_out.h"
-#include <gtest/gtest.h>
-
 #include "core/error.h"
 #include "core/random.h"
 #include "heights/features.h"

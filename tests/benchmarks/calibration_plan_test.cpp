@@ -2,11 +2,12 @@
 #include <set>
 #include <utility>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
 #include "calibration/farm_plan.h"
 #include "description/load_description.h"
 #include "temporary_folder.h"
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
 
 namespace plotscan::calibration {
 namespace {

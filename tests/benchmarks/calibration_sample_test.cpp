@@ -4,17 +4,17 @@
 #include <filesystem>
 #include <fstream>
 
-#include "calibration/field_sample.h"
-#include "calibration/measured_field.h"
-#include "calibration/perfect_returns.h"
-#include "lidarsim/lidar/small_farm.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "calibration/field_sample.h"
+#include "calibration/measured_field.h"
+#include "calibration/perfect_returns.h"
 #include "core/error.h"
 #include "core/random.h"
 #include "heights/features.h"
+#include "lidarsim/lidar/small_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan::calibration {
 namespace {

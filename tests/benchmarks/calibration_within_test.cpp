@@ -2,10 +2,10 @@
 #include <cmath>
 #include <span>
 
-#include "calibration/fit_within.h"
 #include <Eigen/LU>
 #include <gtest/gtest.h>
 
+#include "calibration/fit_within.h"
 #include "core/random.h"
 
 namespace plotscan::calibration {

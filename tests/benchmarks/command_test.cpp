@@ -6,17 +6,17 @@
 #include <fstream>
 #include <thread>
 
-#include "benchmarks/blind_suite.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "benchmarks/blind_suite.h"
 #include "core/error.h"
 #include "farmbench/command_method.h"
 #include "farmbench/entry/command_line.h"
 #include "farmbench/methods.h"
 #include "farmbench/run.h"
 #include "scan/cloud_writer.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

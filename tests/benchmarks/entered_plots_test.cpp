@@ -4,11 +4,11 @@
 #include <filesystem>
 #include <string>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -5,14 +5,12 @@
 #include <filesystem>
 #include <functional>
 
-#include "benchmarks/blind_suite.h"
-#include "methods/lattice/lattice.h"
-#include "temporary_folder.h"
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/blind_suite.h"
 #include "core/angle.h"
 #include "core/error.h"
 #include "farmbench/entries.h"
@@ -23,6 +21,8 @@
 #include "farmbench/run.h"
 #include "farmbench/submission/internal/submission.h"
 #include "farmbench/submission/score_submission.h"
+#include "methods/lattice/lattice.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -5,16 +5,16 @@
 #include <map>
 #include <tuple>
 
-#include "benchmarks/blind_suite.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "benchmarks/blind_suite.h"
 #include "core/error.h"
 #include "farmbench/entry/sha256.h"
 #include "farmbench/export/export_suite.h"
 #include "scan/point_reader.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

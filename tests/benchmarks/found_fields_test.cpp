@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/found_fields.h"
 
-#include "blind_suite.h"
-#include "methods/lattice/lattice.h"
 #include <gtest/gtest.h>
 
+#include "blind_suite.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/suite.h"
+#include "methods/lattice/lattice.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

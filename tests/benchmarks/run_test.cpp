@@ -7,7 +7,6 @@
 #include <filesystem>
 #include <fstream>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -19,6 +18,7 @@
 #include "farmbench/internal/farm_queue.h"
 #include "farmbench/plan.h"
 #include "scan/cloud_reader.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

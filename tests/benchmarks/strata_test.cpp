@@ -4,15 +4,14 @@
 #include <fstream>
 #include <numbers>
 
-#include "description/load_description.h"
-#include "planting/generate.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "description/load_description.h"
 #include "lidar/fly_settings.h"
+#include "planting/generate.h"
 #include "scan/cloud_reader.h"
 #include "strata/empty_field.h"
 #include "strata/field_plan.h"
@@ -22,6 +21,7 @@
 #include "strata/scenery.h"
 #include "strata/table.h"
 #include "strata/tally.h"
+#include "temporary_folder.h"
 
 namespace plotscan::strata {
 namespace {

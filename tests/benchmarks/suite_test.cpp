@@ -5,15 +5,15 @@
 #include <ostream>
 #include <stdexcept>
 
-#include "description/load_description.h"
-#include "planting/generate.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "description/load_description.h"
 #include "farmbench/methods.h"
 #include "farmbench/suite_choice.h"
+#include "planting/generate.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -3,7 +3,6 @@
 #include <filesystem>
 #include <sstream>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 #include "farmbench/internal/sweep_table.h"
 #include "farmbench/run.h"
 #include "farmbench/suite.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <functional>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -13,6 +12,7 @@
 #include "farmbench/internal/suite_page.h"
 #include "farmbench/reports.h"
 #include "farmbench/run.h"
+#include "temporary_folder.h"
 
 namespace plotscan::farmbench {
 namespace {

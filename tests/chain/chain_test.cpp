@@ -4,9 +4,6 @@
 #include <map>
 #include <regex>
 
-#include "programs.h"
-#include "small_farm.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -14,6 +11,9 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/text_file.h"
+#include "programs.h"
+#include "small_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

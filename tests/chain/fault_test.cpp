@@ -11,11 +11,11 @@
 #include <random>
 #include <string>
 
-#include "sanitized.h"
-#include "writers.h"
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "sanitized.h"
+#include "writers.h"
 
 namespace plotscan {
 namespace {

@@ -5,10 +5,11 @@
 #include <ostream>
 #include <string>
 
+#include <gmock/gmock.h>
+
 #include "programs.h"
 #include "sanitized.h"
 #include "temporary_folder.h"
-#include <gmock/gmock.h>
 
 namespace plotscan {
 namespace {

@@ -9,8 +9,9 @@
 #include <random>
 #include <string>
 
-#include "writers.h"
 #include <gmock/gmock.h>
+
+#include "writers.h"
 
 namespace plotscan {
 namespace {

@@ -3,12 +3,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "small_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/format.h"
+#include "small_farm.h"
 
 namespace plotscan::testing {
 namespace {

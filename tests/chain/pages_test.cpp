@@ -6,9 +6,10 @@
 #include <sstream>
 #include <vector>
 
+#include <gmock/gmock.h>
+
 #include "programs.h"
 #include "temporary_folder.h"
-#include <gmock/gmock.h>
 
 namespace plotscan {
 namespace {

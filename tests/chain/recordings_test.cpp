@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "programs.h"
-#include "small_farm.h"
-#include "temporary_folder.h"
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "programs.h"
+#include "small_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -5,12 +5,12 @@
 #include <filesystem>
 #include <string>
 
-#include "programs.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
+#include "programs.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -3,9 +3,10 @@
 
 #include <string>
 
+#include <gtest/gtest.h>
+
 #include "programs.h"
 #include "temporary_folder.h"
-#include <gtest/gtest.h>
 
 namespace plotscan::testing {
 

@@ -7,9 +7,9 @@
 #include <numbers>
 #include <vector>
 
-#include "cloud/cloud_map.h"
 #include <Eigen/Core>
 
+#include "cloud/cloud_map.h"
 #include "core/plot_box.h"
 #include "core/random.h"
 

@@ -6,13 +6,13 @@
 #include <map>
 #include <regex>
 
-#include "farmgen/example_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <sys/wait.h>
 
 #include "core/error.h"
+#include "farmgen/example_farm.h"
 
 namespace plotscan::farm {
 namespace {

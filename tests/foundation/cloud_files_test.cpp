@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/cloud_files.h"
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -3,9 +3,8 @@
 
 #include <cmath>
 
-#include "temporary_folder.h"
-
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

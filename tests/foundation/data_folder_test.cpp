@@ -4,11 +4,11 @@
 #include <cstdlib>
 #include <filesystem>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -3,8 +3,9 @@
 
 #include <system_error>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
+
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/format.h"
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include "core/manifest.h"
 #include "core/plot_features.h"
 #include "core/yaml_section.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

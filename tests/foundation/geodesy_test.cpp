@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/geodesy.h"
 
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

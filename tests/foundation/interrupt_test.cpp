@@ -7,12 +7,12 @@
 #include <string>
 #include <thread>
 
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/temporary_path.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

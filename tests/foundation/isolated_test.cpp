@@ -12,8 +12,6 @@
 #include <thread>
 #include <vector>
 
-#include "sanitized.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -21,6 +19,8 @@
 
 #include "core/bytes.h"
 #include "core/error.h"
+#include "sanitized.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/manifest.h"
 
-#include "temporary_folder.h"
-
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

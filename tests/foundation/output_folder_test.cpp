@@ -3,13 +3,13 @@
 
 #include <cerrno>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include "core/error.h"
 #include "core/output_file.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -3,13 +3,13 @@
 #include <filesystem>
 #include <string>
 
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/internal/time_left.h"
 #include "core/nearest_name.h"
 #include "core/printable.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -3,11 +3,11 @@
 
 #include <string>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

@@ -6,9 +6,10 @@
 #include <filesystem>
 #include <iostream>
 
+#include <unistd.h>
+
 #include "fuzz/mutate.h"
 #include "fuzz/targets.h"
-#include <unistd.h>
 
 namespace {
 

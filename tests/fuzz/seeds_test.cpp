@@ -3,11 +3,10 @@
 // once found is read or refused, in time.
 #include <fstream>
 
+#include "core/error.h"
 #include "fuzz/mutate.h"
 #include "fuzz/targets.h"
 #include "temporary_folder.h"
-
-#include "core/error.h"
 
 namespace plotscan::fuzz {
 namespace {

@@ -3,10 +3,9 @@
 
 #include <fstream>
 
-#include "description/load_description.h"
-
 #include "core/error.h"
 #include "core/manifest.h"
+#include "description/load_description.h"
 #include "estimate/estimate.h"
 #include "estimate/internal/esri_grid.h"
 #include "estimate/measured_heights.h"

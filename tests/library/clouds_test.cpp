@@ -3,9 +3,10 @@
 
 #include <limits>
 
+#include <gmock/gmock.h>
+
 #include "plotscan/data.h"
 #include "temporary_folder.h"
-#include <gmock/gmock.h>
 
 namespace plotscan {
 namespace {

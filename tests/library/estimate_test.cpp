@@ -6,12 +6,13 @@
 #include <limits>
 #include <memory>
 
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
 #include "chain/programs.h"
 #include "example_scan.h"
 #include "plotscan/clouds.h"
 #include "plotscan/score.h"
-#include <gmock/gmock.h>
-#include <nlohmann/json.hpp>
 
 namespace plotscan {
 namespace {

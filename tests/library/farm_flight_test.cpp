@@ -2,9 +2,10 @@
 // Farms and flights of the library against those of the programs: the same bytes.
 #include <map>
 
+#include <gmock/gmock.h>
+
 #include "chain/programs.h"
 #include "example_scan.h"
-#include <gmock/gmock.h>
 
 namespace plotscan {
 namespace {

@@ -2,12 +2,12 @@
 // An installed tree as its users have it: programs that find their data, examples built against it.
 #include <cstdlib>
 
-#include "chain/programs.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
+#include "chain/programs.h"
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan {
 namespace {

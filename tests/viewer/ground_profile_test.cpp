@@ -5,8 +5,9 @@
 #include <limits>
 #include <numbers>
 
-#include "viewer/shown_field.h"
 #include <gtest/gtest.h>
+
+#include "viewer/shown_field.h"
 
 namespace plotscan::view {
 namespace {

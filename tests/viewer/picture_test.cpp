@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "view/picture.h"
 
+#include "core/error.h"
 #include "temporary_folder.h"
 #include "viewer/pixels.h"
-
-#include "core/error.h"
 
 namespace plotscan::view {
 namespace {

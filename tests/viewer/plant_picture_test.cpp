@@ -4,14 +4,14 @@
 #include <algorithm>
 #include <limits>
 
-#include "temporary_folder.h"
-#include "viewer/pixels.h"
 #include <gtest/gtest.h>
 #include <vtkPNGWriter.h>
 #include <vtkUnsignedCharArray.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 #include "view/internal/plant_layout.h"
+#include "viewer/pixels.h"
 
 namespace plotscan::view {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <numbers>
 
-#include "viewer/pixels.h"
-#include "viewer/shown_field.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "viewer/pixels.h"
+#include "viewer/shown_field.h"
 
 namespace plotscan::view {
 namespace {

@@ -4,10 +4,10 @@
 #include <functional>
 #include <string>
 
-#include "temporary_folder.h"
 #include <fmt/core.h>
 
 #include "estimate/estimate.h"
+#include "temporary_folder.h"
 
 namespace plotscan::view {
 

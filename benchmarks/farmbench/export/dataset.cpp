@@ -10,14 +10,15 @@
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/list_of.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
+#include "core/text_file.h"
 #include "farmbench/export/internal/labelled_scans.h"
 #include "farmbench/farm_scan.h"
 #include "farmbench/markdown.h"
-#include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
@@ -50,6 +51,13 @@ struct Sequence {
   std::string name;
   std::string split;
 };
+
+// Which part of the data set the farms of the suite's index-th seed are: of five seeds the fourth
+// is "validation", the fifth "test", the others are "train".
+std::string split_of(std::size_t seed_index) {
+  const std::size_t place = seed_index % 5;
+  return place == 3 ? "validation" : place == 4 ? "test" : "train";
+}
 
 std::vector<Sequence> sequences_of(const Suite& suite) {
   std::vector<Sequence> sequences;
@@ -125,11 +133,6 @@ std::string card(const json& document, const std::string& command) {
 
 }  // namespace
 
-std::string split_of(std::size_t seed_index) {
-  const std::size_t place = seed_index % 5;
-  return place == 3 ? "validation" : place == 4 ? "test" : "train";
-}
-
 DatasetSummary export_dataset(const ExportOptions& options, const std::string& command,
                               const ProgressReport& progress) {
   const Suite suite = chosen_suite(options.suite);
@@ -154,8 +157,8 @@ DatasetSummary export_dataset(const ExportOptions& options, const std::string& c
     summary.scans += document["sequences"].back()["scans"].get<std::size_t>();
     summary.points += document["sequences"].back()["points"].get<std::uint64_t>();
   }
-  write_json(folder.path() / "dataset.json", document);
-  write_text(folder.path() / "README.md", card(document, command));
+  write_text_file(folder.path() / "dataset.json", json_lines(document));
+  write_text_file(folder.path() / "README.md", card(document, command));
   write_manifest(folder.path(), {.command = kDatasetCommand,
                                  .options = {{"suite", suite.name}, {"seeds", suite.seeds}},
                                  .inputs = {suite.file}});

@@ -24,8 +24,4 @@ struct DatasetSummary {
 DatasetSummary export_dataset(const ExportOptions& options, const std::string& command,
                               const ProgressReport& progress = {});
 
-// Which part of a data set the farms of a suite's index-th seed are: of five seeds the fourth is
-// "validation", the fifth "test", the others are "train".
-std::string split_of(std::size_t seed_index);
-
 }  // namespace plotscan::farmbench

@@ -6,12 +6,13 @@
 
 #include <unistd.h>
 
+#include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
+#include "core/text_file.h"
 #include "farmbench/entry/sha256.h"
 #include "farmbench/markdown.h"
-#include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
@@ -132,8 +133,8 @@ ExportSummary export_suite(const ExportOptions& options, const ProgressReport& p
         }));
     summary.points += task["fields"].back()["points"].get<std::uint64_t>();
   }
-  write_json(folder.path() / "task.json", task);
-  write_text(folder.path() / "TASK.md", task_sheet(task));
+  write_text_file(folder.path() / "task.json", json_lines(task));
+  write_text_file(folder.path() / "TASK.md", task_sheet(task));
   write_manifest(folder.path(), {.command = kExportCommand,
                                  .options = {{"suite", suite.name},
                                              {"boxes", options.parts.boxes},

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "estimate/diagnostics.h"
-#include "farmbench/format.h"
+#include "farmbench/figures.h"
 
 namespace plotscan::farmbench {
 namespace {

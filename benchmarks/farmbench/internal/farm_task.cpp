@@ -7,6 +7,7 @@
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
+#include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "farmbench/command_method.h"
@@ -14,7 +15,6 @@
 #include "farmbench/internal/run_farm.h"
 #include "farmbench/methods.h"
 #include "farmbench/suite_choice.h"
-#include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
@@ -72,8 +72,8 @@ void run_in(const fs::path& folder, FarmTask& task, const Suite& suite, const Ru
   result.made_from = task.made_from;
   // The result last: it is what a later run looks for.
   if (options.keep_clouds) keep_clouds(folder, kept_clouds(options, task), task);
-  write_json(times_file(options.output, task.name), times_of(result));
-  write_json(result_file(options, task), result);
+  write_whole_file(times_file(options.output, task.name), json_lines(times_of(result)));
+  write_whole_file(result_file(options, task), json_lines(json(result)));
   task.result = std::move(result);
   fs::remove_all(folder);
 }

@@ -4,7 +4,7 @@
 #include <algorithm>
 
 #include "core/error.h"
-#include "farmbench/text_file.h"
+#include "core/output_file.h"
 #include "fieldpage/shown.h"
 #include "report/shown_field.h"
 #include "scanpage/read_cloud.h"
@@ -42,7 +42,7 @@ void write_farm_view(const fs::path& file, const FarmView& view) {
   field.path = std::move(scan.path);
   field.cloud = std::move(scan.cloud);
   const std::vector<std::uint8_t> bytes = nlohmann::json::to_cbor(report::packed_field(field));
-  write_text(file, std::string(bytes.begin(), bytes.end()));
+  write_whole_file(file, std::string(bytes.begin(), bytes.end()));
 }
 
 std::optional<nlohmann::json> read_farm_view(const fs::path& file) {

@@ -7,14 +7,14 @@
 #include <string>
 #include <vector>
 
-#include "cloud/area.h"
-#include "terrain/terrain.h"
 #include <nlohmann/json.hpp>
 
+#include "cloud/area.h"
 #include "estimate/estimate.h"
 #include "farmbench/farm_result.h"
 #include "farmbench/suite.h"
 #include "score/score.h"
+#include "terrain/terrain.h"
 
 // What a suite's page shows of one farm of each case.
 namespace plotscan::farmbench {

@@ -10,16 +10,11 @@
 
 namespace plotscan::farmbench {
 
-std::string row_name(const std::string& method, const std::string& height) {
-  const std::size_t space = method.find(' ');
-  if (space == std::string::npos) return method + "/" + height;
-  return method.substr(0, space) + "/" + height + method.substr(space);
-}
-
 std::vector<MethodHeight> rows_of(const std::string& method,
                                   const std::vector<std::string>& heights) {
+  const std::size_t end = std::min(method.find(' '), method.size());  // of its first word
   return list_of(heights, [&](const std::string& height) {
-    return MethodHeight{height, row_name(method, height)};
+    return MethodHeight{height, method.substr(0, end) + "/" + height + method.substr(end)};
   });
 }
 

@@ -9,10 +9,8 @@
 
 namespace plotscan::farmbench {
 
-// "lattice/max true-boxes": of a method's name, what comes after its first word follows the height.
-std::string row_name(const std::string& method, const std::string& height);
-
-// Heights of a method, each with its row.
+// Heights of a method, each with its row, "lattice/max true-boxes": of a method's name, what comes
+// after its first word follows the height.
 std::vector<MethodHeight> rows_of(const std::string& method,
                                   const std::vector<std::string>& heights);
 

@@ -5,17 +5,16 @@
 #include <iterator>
 
 #include "cloud/cloud_map.h"
-#include "description/load_description.h"
-#include "planting/generate.h"
-
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/list_of.h"
 #include "core/manifest.h"
 #include "core/stopwatch.h"
+#include "description/load_description.h"
 #include "farmbench/internal/farm_view.h"
 #include "farmbench/methods.h"
 #include "lidar/fly_settings.h"
+#include "planting/generate.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;

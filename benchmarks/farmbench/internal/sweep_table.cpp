@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/text.h"
-#include "farmbench/format.h"
+#include "farmbench/figures.h"
 #include "farmbench/internal/failures.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/markdown.h"

@@ -2,11 +2,9 @@
 #include <memory>
 
 #include "commands.h"
-#include <fmt/core.h>
-
 #include "core/data_folder.h"
 #include "farmbench/export/dataset.h"
-#include "farmbench/format.h"
+#include "farmbench/figures.h"
 
 namespace plotscan {
 namespace {
@@ -19,9 +17,9 @@ void run_export(const Program& program, farmbench::ExportOptions options) {
   program.result({{"output", options.output.string()},
                   {"fields", summary.fields},
                   {"points", summary.points}});
-  program.say(fmt::format("{}: {}, {:.1f} million points; TASK.md says what is asked",
-                          options.output.string(), farmbench::counted(summary.fields, "field"),
-                          1e-6 * static_cast<double>(summary.points)));
+  program.say("{}: {}, {:.1f} million points; TASK.md says what is asked", options.output.string(),
+              farmbench::counted(summary.fields, "field"),
+              1e-6 * static_cast<double>(summary.points));
 }
 
 // The command line that writes the same data set.
@@ -42,10 +40,9 @@ void run_dataset(const Program& program, farmbench::ExportOptions options) {
                   {"farms", summary.farms},
                   {"scans", summary.scans},
                   {"points", summary.points}});
-  program.say(fmt::format("{}: {}, {}, {:.1f} million points; README.md is its card",
-                          options.output.string(), farmbench::counted(summary.farms, "farm"),
-                          farmbench::counted(summary.scans, "scan"),
-                          1e-6 * static_cast<double>(summary.points)));
+  program.say("{}: {}, {}, {:.1f} million points; README.md is its card", options.output.string(),
+              farmbench::counted(summary.farms, "farm"), farmbench::counted(summary.scans, "scan"),
+              1e-6 * static_cast<double>(summary.points));
 }
 
 }  // namespace

@@ -4,15 +4,13 @@
 #include <string>
 
 #include "commands.h"
-#include "suite_options.h"
-#include <fmt/core.h>
-
 #include "core/data_folder.h"
 #include "core/manifest.h"
 #include "core/text.h"
-#include "farmbench/format.h"
+#include "farmbench/figures.h"
 #include "farmbench/plan.h"
 #include "farmbench/reports.h"
+#include "suite_options.h"
 
 namespace plotscan {
 namespace {
@@ -26,9 +24,8 @@ void run_plan(const Program& program, farmbench::RunOptions options) {
   program.result({{"output", options.output.string()},
                   {"farms", planned.farms},
                   {"changed", planned.changed}});
-  program.say(fmt::format("{}: {}{}", options.output.string(),
-                          farmbench::counted(planned.farms, "farm"),
-                          planned.changed > 0 ? "" : ", planned before"));
+  program.say("{}: {}{}", options.output.string(), farmbench::counted(planned.farms, "farm"),
+              planned.changed > 0 ? "" : ", planned before");
   program.say(
       "farmbench farm runs one of tasks.csv, farmbench merge makes the table of all; "
       "workflow/Snakefile does both (docs/scale.md)");
@@ -58,9 +55,9 @@ void run_farm(const Program& program, FarmArguments& arguments) {
                   {"resumed", farm.resumed},
                   {"shots", farm.result.shots},
                   {"points", farm.result.points}});
-  program.say(fmt::format("{}: {:.2f} million points, {} methods{}", arguments.farm,
-                          1e-6 * static_cast<double>(farm.result.points),
-                          farm.result.methods.size(), farm.resumed ? "; run before" : ""));
+  program.say("{}: {:.2f} million points, {} methods{}", arguments.farm,
+              1e-6 * static_cast<double>(farm.result.points), farm.result.methods.size(),
+              farm.resumed ? "; run before" : "");
 }
 
 void declare_farm(Program& program) {

@@ -3,17 +3,17 @@
 #include <memory>
 #include <string>
 
-#include "commands.h"
-#include "suite_options.h"
 #include <fmt/core.h>
 
+#include "commands.h"
 #include "core/data_folder.h"
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/stopwatch.h"
-#include "farmbench/format.h"
+#include "farmbench/figures.h"
 #include "farmbench/reports.h"
 #include "farmbench/run.h"
+#include "suite_options.h"
 
 namespace plotscan {
 namespace {
@@ -45,9 +45,8 @@ void run_suite(const Program& program, farmbench::RunOptions options) {
                                                farm.seed, farm_seconds));
                      });
   const double seconds = watch.seconds();
-  program.say(fmt::format("{}, {} of them run before, {:.0f} s",
-                          farmbench::counted(summary.result.farms.size(), "farm"), summary.resumed,
-                          seconds));
+  program.say("{}, {} of them run before, {:.0f} s",
+              farmbench::counted(summary.result.farms.size(), "farm"), summary.resumed, seconds);
   program.say("");
   say_summary(program, summary, options.output.string());
 }

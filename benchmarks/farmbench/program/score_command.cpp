@@ -2,7 +2,6 @@
 #include <memory>
 
 #include "commands.h"
-
 #include "core/data_folder.h"
 #include "core/text.h"
 #include "farmbench/reports.h"

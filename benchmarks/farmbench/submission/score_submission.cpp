@@ -8,7 +8,9 @@
 #include <unistd.h>
 
 #include "core/error.h"
+#include "core/json_text.h"
 #include "core/manifest.h"
+#include "core/output_file.h"
 #include "core/output_folder.h"
 #include "core/temporary_path.h"
 #include "farmbench/entry/sha256.h"
@@ -16,7 +18,6 @@
 #include "farmbench/methods.h"
 #include "farmbench/run.h"
 #include "farmbench/submission/internal/submission.h"
-#include "farmbench/text_file.h"
 
 namespace plotscan::farmbench {
 namespace fs = std::filesystem;
@@ -215,7 +216,7 @@ void add_to_results(const ScoreSubmissionOptions& options, const Entry& entry, S
                           .results = std::move(results)};
   write_manifest(output, manifest);
   write_entry(output, entry);
-  write_json(output / "results.json", result);
+  write_whole_file(output / "results.json", json_lines(json(result)));
   report(output, options.seed);
   write_manifest(output, manifest);
 }

@@ -7,7 +7,6 @@
 #include <utility>
 
 #include "cloud/convex_hull.h"
-
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/statistics.h"

@@ -4,9 +4,10 @@
 #include <span>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "cloud/area.h"
 #include "cloud/tile_store.h"
-#include <Eigen/Core>
 
 namespace plotscan::cloud {
 

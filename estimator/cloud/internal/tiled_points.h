@@ -6,8 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "cloud/point_key.h"
 #include <Eigen/Core>
+
+#include "cloud/point_key.h"
 
 namespace plotscan::cloud {
 

@@ -4,15 +4,6 @@
 #include <algorithm>
 #include <string>
 
-#include "methods/dhami2020/internal/ground_level.h"
-#include "methods/dhami2020/internal/lattice.h"
-#include "methods/dhami2020/internal/oriented_box.h"
-#include "methods/dhami2020/internal/plot_grid.h"
-#include "methods/dhami2020/internal/plot_heights.h"
-#include "methods/dhami2020/internal/voting.h"
-#include "methods/dhami2020/k_means.h"
-#include "methods/dhami2020/settings.h"
-#include "methods/dhami2020/voxel_filter.h"
 #include <fmt/core.h>
 
 #include "core/angle.h"
@@ -22,6 +13,15 @@
 #include "core/list_of.h"
 #include "core/trial_layout.h"
 #include "estimate/given_plots.h"
+#include "methods/dhami2020/internal/ground_level.h"
+#include "methods/dhami2020/internal/lattice.h"
+#include "methods/dhami2020/internal/oriented_box.h"
+#include "methods/dhami2020/internal/plot_grid.h"
+#include "methods/dhami2020/internal/plot_heights.h"
+#include "methods/dhami2020/internal/voting.h"
+#include "methods/dhami2020/k_means.h"
+#include "methods/dhami2020/settings.h"
+#include "methods/dhami2020/voxel_filter.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {

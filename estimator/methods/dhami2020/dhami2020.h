@@ -6,7 +6,6 @@
 #include <vector>
 
 #include "cloud/cloud_map.h"
-
 #include "core/plot_box.h"
 #include "core/progress.h"
 #include "estimate/estimate.h"

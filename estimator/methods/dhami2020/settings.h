@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include "methods/dhami2020/dhami2020.h"
-
 #include "core/method_setting.h"
+#include "methods/dhami2020/dhami2020.h"
 
 namespace plotscan::methods::dhami2020 {
 

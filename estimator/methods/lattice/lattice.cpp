@@ -7,15 +7,12 @@
 #include <string>
 #include <utility>
 
-#include "cloud/coordinate_step.h"
-#include "cloud/field_density.h"
-#include "cloud/points_in_boxes.h"
-#include "methods/lattice/internal/field_report.h"
-#include "methods/lattice/internal/layout_doubts.h"
-#include "methods/lattice/settings.h"
 #include <Eigen/Geometry>
 #include <fmt/core.h>
 
+#include "cloud/coordinate_step.h"
+#include "cloud/field_density.h"
+#include "cloud/points_in_boxes.h"
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/each_index.h"
@@ -25,6 +22,9 @@
 #include "core/stage.h"
 #include "estimate/given_plots.h"
 #include "heights/measure_heights.h"
+#include "methods/lattice/internal/field_report.h"
+#include "methods/lattice/internal/layout_doubts.h"
+#include "methods/lattice/settings.h"
 #include "plots/search/find_trials.h"
 
 namespace plotscan::methods::lattice {

@@ -5,15 +5,15 @@
 #include <optional>
 #include <vector>
 
-#include "cloud/area.h"
-#include "cloud/field_cloud.h"
-#include "methods/lattice/work_estimate.h"
 #include <Eigen/Core>
 
+#include "cloud/area.h"
+#include "cloud/field_cloud.h"
 #include "core/plot_box.h"
 #include "core/progress.h"
 #include "estimate/estimate.h"
 #include "ground/surface.h"
+#include "methods/lattice/work_estimate.h"
 
 namespace plotscan::methods::lattice {
 

@@ -3,9 +3,8 @@
 
 #include <vector>
 
-#include "methods/lattice/lattice.h"
-
 #include "core/method_setting.h"
+#include "methods/lattice/lattice.h"
 
 namespace plotscan::methods::lattice {
 

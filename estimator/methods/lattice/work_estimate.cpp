@@ -5,7 +5,6 @@
 #include <cmath>
 
 #include "cloud/field_density.h"
-
 #include "ground/columns.h"
 
 namespace plotscan::methods::lattice {

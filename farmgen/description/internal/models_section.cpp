@@ -3,12 +3,11 @@
 #include <limits>
 #include <set>
 
-#include "description/internal/sections.h"
-#include "description/internal/values.h"
-
 #include "core/list_of.h"
 #include "core/yaml_section.h"
 #include "crop/grow.h"
+#include "description/internal/sections.h"
+#include "description/internal/values.h"
 
 namespace plotscan::description {
 namespace {

@@ -2,15 +2,14 @@
 #include <cmath>
 #include <tuple>
 
-#include "description/internal/sections.h"
-#include "description/internal/values.h"
-#include "planting/plot_layout.h"
-
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/trial_layout.h"
 #include "core/yaml_section.h"
+#include "description/internal/sections.h"
+#include "description/internal/values.h"
+#include "planting/plot_layout.h"
 
 namespace plotscan::description {
 namespace {

@@ -2,14 +2,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "description/internal/sections.h"
-#include "planting/plot_layout.h"
 #include <fmt/core.h>
 
 #include "core/angle.h"
 #include "core/plot_box.h"
 #include "core/trial_layout.h"
 #include "core/yaml_section.h"
+#include "description/internal/sections.h"
+#include "planting/plot_layout.h"
 
 namespace plotscan::description {
 namespace {

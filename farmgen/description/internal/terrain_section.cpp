@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
-#include "description/internal/sections.h"
-#include "description/internal/values.h"
-
 #include "core/angle.h"
 #include "core/yaml_section.h"
+#include "description/internal/sections.h"
+#include "description/internal/values.h"
 
 namespace plotscan::description {
 namespace {

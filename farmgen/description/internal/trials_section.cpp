@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 
-#include "description/internal/sections.h"
-
 #include "core/trial_layout.h"
 #include "core/yaml_section.h"
+#include "description/internal/sections.h"
 
 namespace plotscan::description {
 namespace {

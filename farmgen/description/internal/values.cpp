@@ -3,9 +3,8 @@
 
 #include <string_view>
 
-#include "planting/plants_description.h"
-
 #include "mesh/obj.h"
+#include "planting/plants_description.h"
 
 namespace plotscan::description {
 namespace {

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <tuple>
 
+#include "core/yaml_section.h"
 #include "description/internal/sections.h"
 #include "description/internal/values.h"
-
-#include "core/yaml_section.h"
 
 namespace plotscan::description {
 planting::WeedsDescription read_weeds(const YamlSection& section,

@@ -12,8 +12,8 @@
 
 #include "core/csv.h"
 #include "core/number_text.h"
-#include "core/ordered_texts.h"
 #include "core/text_file.h"
+#include "farmfolder/internal/ordered_texts.h"
 
 namespace plotscan::farmfolder {
 namespace {

@@ -4,10 +4,9 @@
 #include <array>
 #include <span>
 
-#include "sdfxml/elements.h"
-
 #include "core/error.h"
 #include "farm/surface_class.h"
+#include "sdfxml/elements.h"
 
 namespace plotscan::farmfolder {
 namespace {

@@ -4,9 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "sdfxml/xml_file.h"
-
 #include "farm/farm.h"
+#include "sdfxml/xml_file.h"
 
 namespace plotscan::farmfolder {
 

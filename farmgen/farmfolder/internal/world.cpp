@@ -6,11 +6,10 @@
 #include <span>
 #include <vector>
 
+#include "core/list_of.h"
+#include "farmfolder/internal/ordered_texts.h"
 #include "farmfolder/internal/plant_visuals.h"
 #include "sdfxml/elements.h"
-
-#include "core/list_of.h"
-#include "core/ordered_texts.h"
 
 namespace plotscan::farmfolder {
 namespace {

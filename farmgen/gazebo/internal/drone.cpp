@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <numbers>
 
-#include "sdfxml/elements.h"
-
 #include "core/angle.h"
 #include "gazebo/internal/world_file.h"
+#include "sdfxml/elements.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -86,7 +85,7 @@ class Drone {
     xml_.close();
     open_material(xml_, colour);
     xml_.close();
-    write_class(xml_, SurfaceClass::other);
+    write_class(xml_, farm::SurfaceClass::other);
     xml_.close();
   }
 

@@ -12,7 +12,6 @@
 #include "gazebo/internal/resources.h"
 #include "mesh/mesh.h"
 
-// Private to the library.
 namespace plotscan::gazebo {
 
 // The meshes of visuals, each file and primitive once.

@@ -141,17 +141,17 @@ struct Place {
   }
 };
 
-SurfaceClass kind_of(const sdf::Visual& visual, const Place& place) {
+farm::SurfaceClass kind_of(const sdf::Visual& visual, const Place& place) {
   if (visual.HasLaserRetro()) {
-    for (const SurfaceClass kind :
-         {SurfaceClass::ground, SurfaceClass::crop, SurfaceClass::weed, SurfaceClass::other})
+    for (const farm::SurfaceClass kind : {farm::SurfaceClass::ground, farm::SurfaceClass::crop,
+                                          farm::SurfaceClass::weed, farm::SurfaceClass::other})
       if (visual.LaserRetro() == static_cast<double>(kind)) return kind;
   }
   const sdf::GeometryType type = visual.Geom()->Type();
   const bool flat = type == sdf::GeometryType::PLANE || type == sdf::GeometryType::HEIGHTMAP;
-  if (place.ground || flat) return SurfaceClass::ground;
-  if (place.crop) return place.weed ? SurfaceClass::weed : SurfaceClass::crop;
-  return SurfaceClass::other;
+  if (place.ground || flat) return farm::SurfaceClass::ground;
+  if (place.crop) return place.weed ? farm::SurfaceClass::weed : farm::SurfaceClass::crop;
+  return farm::SurfaceClass::other;
 }
 
 bool carries_lidar(const sdf::Model& model) {

@@ -8,11 +8,10 @@
 
 #include <Eigen/Geometry>
 
+#include "farm/surface_class.h"
 #include "gazebo/internal/includes.h"
 #include "gazebo/internal/resources.h"
-#include "gazebo/labels.h"
 
-// Private to the library.
 namespace plotscan::gazebo {
 
 enum class ShapeKind : std::uint8_t { mesh, box, plane, sphere, cylinder, capsule, polyline };
@@ -34,7 +33,7 @@ struct ShapeSpec {
 struct PlacedVisual {
   ShapeSpec shape;
   Eigen::Affine3d world_from_visual = Eigen::Affine3d::Identity();
-  SurfaceClass kind = SurfaceClass::other;
+  farm::SurfaceClass kind = farm::SurfaceClass::other;
   std::uint32_t plot = 0;   // 0: none
   std::uint32_t plant = 0;  // 0: none
   std::string what;         // for messages: model "a", link "b", visual "c"

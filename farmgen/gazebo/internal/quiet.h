@@ -4,7 +4,7 @@
 #include <console_bridge/console.h>
 #include <sdf/Console.hh>
 
-// Private to the library; holds libsdformat's types.
+// Holds libsdformat's types.
 namespace plotscan::gazebo {
 
 // libsdformat's errors come back as values: nothing is printed, neither by itself nor by the URDF

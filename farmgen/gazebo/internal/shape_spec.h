@@ -13,7 +13,6 @@ class Visual;
 }
 }  // namespace sdf
 
-// Private to the library.
 namespace plotscan::gazebo {
 
 // The visual's geometry; absent where it has none. Throws InputError, naming the visual as `what`,

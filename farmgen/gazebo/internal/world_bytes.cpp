@@ -64,7 +64,7 @@ void put_visual(ByteWriter& bytes, const PlacedVisual& visual) {
 PlacedVisual get_visual(ByteReader& bytes) {
   PlacedVisual visual{.shape = get_shape(bytes), .what = {}};
   visual.world_from_visual = get_affine(bytes);
-  visual.kind = get_choice(bytes, SurfaceClass::other);
+  visual.kind = get_choice(bytes, farm::SurfaceClass::other);
   visual.plot = bytes.get<std::uint32_t>();
   visual.plant = bytes.get<std::uint32_t>();
   visual.what = bytes.get_text();

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/internal/world_file.h"
 
+#include "gazebo/internal/naming.h"
 #include "sdfxml/elements.h"
 #include "terrain/extent.h"
-
-#include "gazebo/internal/naming.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -30,13 +29,14 @@ class WorldFile {
         {{"ambient", "0.5 0.5 0.5 1"}, {"background", "0.65 0.78 0.92 1"}, {"shadows", "true"}});
     if (farm_.anchor) write_spherical_coordinates();
     sdfxml::write_sun(xml_);
-    include(sdfxml::kTerrainModel, Eigen::Vector3d::Zero(), SurfaceClass::ground);
-    for (const PlantGroups& group : world_.groups) include(group.name, group.origin, group.label);
+    include(sdfxml::kTerrainModel, Eigen::Vector3d::Zero(), farm::SurfaceClass::ground);
+    for (const MergedModel& model : world_.merged) include(model.name, model.origin, model.label);
     EntityCounts counts;
     if (options_.merge == Merge::none)
       for (const farm::Plant& plant : farm_.plants) counts += write_plant(plant);
     if (options_.drone)
-      include(kDroneModel, middle() + kWaiting_m * Eigen::Vector3d::UnitZ(), SurfaceClass::other);
+      include(kDroneModel, middle() + kWaiting_m * Eigen::Vector3d::UnitZ(),
+              farm::SurfaceClass::other);
     xml_.close();
     xml_.close();
     xml_.finish();
@@ -97,14 +97,15 @@ class WorldFile {
 
   // The label that Gazebo Sim's segmentation and bounding box cameras show. It stands in the world
   // and not in the model, since Fortress calls the plugin by another name.
-  void write_label(SurfaceClass label) {
+  void write_label(farm::SurfaceClass label) {
     if (names_ == PluginNames::none) return;
     open_plugin("label", "Label");
     xml_.text("label", std::to_string(static_cast<int>(label)));
     xml_.close();
   }
 
-  void include(const std::string& model, const Eigen::Vector3d& position, SurfaceClass label) {
+  void include(const std::string& model, const Eigen::Vector3d& position,
+               farm::SurfaceClass label) {
     xml_.open("include");
     xml_.text("uri", "model://" + model);
     xml_.text("name", model);
@@ -115,7 +116,7 @@ class WorldFile {
 
   EntityCounts write_plant(const farm::Plant& plant) {
     const SinglePlant& mesh = world_.single_plants[plant.model];
-    const SurfaceClass label = class_of(plant.kind);
+    const farm::SurfaceClass label = farm::class_of(plant.kind);
     EntityCounts counts{.models = 1, .links = 1, .visuals = 1, .triangles = mesh.triangles};
     xml_.open("model", plant_model_name(plant.plot, plant.id));
     xml_.text("static", "true");

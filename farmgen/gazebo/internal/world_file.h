@@ -8,10 +8,10 @@
 #include "farm/farm.h"
 #include "gazebo/elements.h"
 #include "gazebo/export_options.h"
-#include "gazebo/groups.h"
+#include "gazebo/merged_models.h"
 #include "gazebo/plant_models.h"
 
-// The files of an exported world besides its models of plants: private to the library.
+// The files of an exported world besides its models of plants.
 namespace plotscan::gazebo {
 
 // How a Gazebo calls its plugins.
@@ -24,7 +24,7 @@ enum class PluginNames {
 struct World {
   const farm::Farm& farm;
   const ExportOptions& options;
-  const std::vector<PlantGroups>& groups;         // of the plants, when they are merged
+  const std::vector<MergedModel>& merged;         // the plants, when they are merged
   const std::vector<SinglePlant>& single_plants;  // their meshes by model, when they are not
 };
 

@@ -11,7 +11,6 @@
 
 struct aiScene;
 
-// Private to the library.
 namespace plotscan::mesh {
 
 // As import_mesh, of a file with that extension (".obj", in small letters), in this very process:

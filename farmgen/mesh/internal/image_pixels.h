@@ -7,7 +7,6 @@
 #include <string>
 #include <vector>
 
-// Private to the library.
 namespace plotscan::mesh {
 
 // One value a pixel in [0, 255], row by row from the top.

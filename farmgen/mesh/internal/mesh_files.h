@@ -6,7 +6,7 @@
 
 #include <assimp/DefaultIOSystem.h>
 
-// Private to the library; holds Assimp's types.
+// Holds Assimp's types.
 namespace plotscan::mesh {
 
 // The files that Assimp may open for a mesh: the mesh's own and regular files that it names. For

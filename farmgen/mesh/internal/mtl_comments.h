@@ -6,7 +6,6 @@
 #include <optional>
 #include <string>
 
-// Private to the library.
 namespace plotscan::mesh {
 
 // MTL has no key for these; comments do not trouble its other readers.

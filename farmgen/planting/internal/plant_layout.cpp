@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <unordered_set>
 
-#include "planting/internal/plants.h"
-#include "planting/layout_table.h"
-#include "planting/plot_layout.h"
-
 #include "core/error.h"
 #include "core/list_of.h"
 #include "farm/heights.h"
+#include "planting/internal/plants.h"
+#include "planting/layout_table.h"
+#include "planting/plot_layout.h"
 
 namespace plotscan::planting {
 std::vector<farm::Plant> table_plants(const LayoutDescription& layout,

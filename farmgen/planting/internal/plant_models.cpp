@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <set>
 
-#include "planting/internal/plants.h"
-
 #include "core/error.h"
 #include "core/text.h"
 #include "crop/grow.h"
 #include "mesh/image_names.h"
 #include "mesh/measure.h"
+#include "planting/internal/plants.h"
 
 namespace plotscan::planting {
 namespace {

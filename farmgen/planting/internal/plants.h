@@ -5,11 +5,10 @@
 #include <filesystem>
 #include <vector>
 
+#include "farm/farm.h"
 #include "planting/farm_description.h"
 
-#include "farm/farm.h"
-
-// What grows on a farm: private to the library.
+// What grows on a farm.
 namespace plotscan::planting {
 
 // Reads or grows the models. Throws InputError when a file cannot be read, a plant cannot be grown

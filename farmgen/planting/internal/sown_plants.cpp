@@ -2,14 +2,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planting/internal/plants.h"
-#include "planting/plot_layout.h"
-
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/random.h"
 #include "farm/heights.h"
+#include "planting/internal/plants.h"
+#include "planting/plot_layout.h"
 
 namespace plotscan::planting {
 namespace {

@@ -4,9 +4,6 @@
 #include <set>
 #include <vector>
 
-#include "planting/internal/plants.h"
-#include "planting/plot_layout.h"
-#include "terrain/extent.h"
 #include <Eigen/Geometry>
 #include <fmt/core.h>
 
@@ -15,6 +12,9 @@
 #include "core/extent.h"
 #include "core/random.h"
 #include "farm/heights.h"
+#include "planting/internal/plants.h"
+#include "planting/plot_layout.h"
+#include "terrain/extent.h"
 
 namespace plotscan::planting {
 namespace {

@@ -6,11 +6,12 @@
 #include <filesystem>
 #include <vector>
 
-#include "terrain/terrain.h"
-#include "terrain/terrain_description.h"
 #include <Eigen/Core>
 
-// What a terrain may be made from before it has relief: private to the library.
+#include "terrain/terrain.h"
+#include "terrain/terrain_description.h"
+
+// What a terrain may be made from before it has relief.
 namespace plotscan::terrain {
 
 // The Delaunay triangulation of points in the plane: triples of indices, counter-clockwise, in an

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <utility>
 
+#include "core/error.h"
 #include "terrain/internal/bases.h"
 #include "terrain/internal/grey_image.h"
 #include "terrain/internal/refine.h"
-
-#include "core/error.h"
 
 namespace plotscan::terrain {
 namespace {

@@ -4,9 +4,10 @@
 #include <cstdint>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "terrain/internal/lattice.h"
 #include "terrain/terrain_description.h"
-#include <Eigen/Core>
 
 namespace plotscan::terrain {
 

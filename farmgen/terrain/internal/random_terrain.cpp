@@ -2,12 +2,12 @@
 #include <algorithm>
 #include <utility>
 
-#include "terrain/internal/bases.h"
 #include <CGAL/Delaunay_triangulation_2.h>
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include "core/random.h"
+#include "terrain/internal/bases.h"
 
 namespace plotscan::terrain {
 namespace {

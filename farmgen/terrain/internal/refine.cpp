@@ -8,11 +8,11 @@
 #include <limits>
 #include <utility>
 
-#include "terrain/internal/bases.h"
 #include <fmt/core.h>
 
 #include "core/error.h"
 #include "core/list_of.h"
+#include "terrain/internal/bases.h"
 
 namespace plotscan::terrain {
 namespace {

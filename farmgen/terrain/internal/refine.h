@@ -4,10 +4,11 @@
 #include <cstddef>
 #include <vector>
 
+#include <Eigen/Geometry>
+
 #include "terrain/internal/lattice.h"
 #include "terrain/internal/relief.h"
 #include "terrain/terrain.h"
-#include <Eigen/Geometry>
 
 namespace plotscan::terrain {
 

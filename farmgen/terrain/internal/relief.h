@@ -5,11 +5,12 @@
 #include <optional>
 #include <vector>
 
+#include <Eigen/Core>
+#include <Eigen/Geometry>
+
 #include "terrain/internal/lattice.h"
 #include "terrain/internal/plane_waves.h"
 #include "terrain/terrain_description.h"
-#include <Eigen/Core>
-#include <Eigen/Geometry>
 
 namespace plotscan::terrain {
 

@@ -5,13 +5,12 @@
 #include <string>
 #include <string_view>
 
-#include "terrain/internal/bases.h"
-#include "terrain/internal/refine.h"
-
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/parse.h"
 #include "core/text.h"
+#include "terrain/internal/bases.h"
+#include "terrain/internal/refine.h"
 
 namespace plotscan::terrain {
 namespace {

@@ -1,18 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library.
-
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <vector>
 
-#include "terrain/border.h"
-
 #include "farm/farm.h"
 #include "lidar/internal/ceiling_map.h"
 #include "lidar/internal/ray_grid.h"
+#include "terrain/border.h"
 
 namespace plotscan::lidar {
 

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/ros/file.h"
 
+#include "record/ros/internal/bag_format.h"
 #include "record/ros/internal/binary_file.h"
+#include "record/ros/internal/mcap_format.h"
 
 namespace plotscan::record::ros {
 

@@ -21,21 +21,20 @@ struct Topic {
   bool latched = false;
 };
 
-// Writes a file. Topics are given at its creation, messages in the order of time.
+// Writes a file. Topics are given at its creation, messages in the order of time. All of this
+// throws WriteError when the file cannot be written.
 class FileWriter {
  public:
   virtual ~FileWriter() = default;
 
   virtual Version version() const = 0;
   // `message` is what encode() makes; `topic` is the topic's index in the order given, from 0.
-  // Throws std::runtime_error when the disk is full.
   virtual void write(std::size_t topic, Time time, std::string_view message) = 0;
   // Finishes the file, which is incomplete without it.
   virtual void close() = 0;
 };
 
-// ROS bag format 2.0 (wiki.ros.org/Bags/Format/2.0), chunks not compressed. Throws
-// std::runtime_error when the file cannot be created, like create_mcap.
+// ROS bag format 2.0 (wiki.ros.org/Bags/Format/2.0), chunks not compressed.
 std::unique_ptr<FileWriter> create_bag(const std::filesystem::path& file,
                                        std::vector<Topic> topics);
 // MCAP (mcap.dev/spec) with profile ros2, as rosbag2 writes it; chunks not compressed.
@@ -54,9 +53,5 @@ using MessageSink = std::function<void(const Message&)>;
 // MCAP, with Zstandard. Throws InputError when the file is missing, foreign, truncated, broken or
 // compressed otherwise. An InputError of the sink is thrown again with the file's name.
 void read_messages(const std::filesystem::path& file, const MessageSink& sink);
-
-// Private to file.cpp: read_messages of either kind.
-void read_bag(const std::filesystem::path& file, const MessageSink& sink);
-void read_mcap(const std::filesystem::path& file, const MessageSink& sink);
 
 }  // namespace plotscan::record::ros

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: what a cloud's header tells about the points that follow it.
+// What a cloud's header tells about the points that follow it.
 
 #include <cstdint>
 #include <filesystem>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: what reader and writer share of LAS ("LAS Specification 1.4 - R15",
-// ASPRS, 2019).
+// What reader and writer share of LAS ("LAS Specification 1.4 - R15", ASPRS, 2019).
 
 #include <array>
 #include <cstddef>

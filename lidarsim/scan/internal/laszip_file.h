@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library; only built where LASzip is.
+// Only built where LASzip is.
 
 #include <filesystem>
 

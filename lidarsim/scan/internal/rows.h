@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: what the readers of a cloud's body share.
+// What the readers of a cloud's body share.
 
 #include <cstdint>
 #include <filesystem>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: well-known text of coordinate systems (OGC 01-009 and ISO 19162).
+// Well-known text of coordinate systems (OGC 01-009 and ISO 19162).
 
 #include <initializer_list>
 #include <optional>

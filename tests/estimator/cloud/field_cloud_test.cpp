@@ -4,13 +4,13 @@
 #include <algorithm>
 #include <random>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "temporary_folder.h"
 
 namespace plotscan::cloud {
 namespace {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "tiled_clouds.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "tiled_clouds.h"
 
 namespace plotscan::cloud {
 namespace {

@@ -3,10 +3,10 @@
 
 #include <cmath>
 
-#include "tiled_clouds.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "tiled_clouds.h"
 
 namespace plotscan::cloud {
 namespace {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "cloud/internal/tiled_points.h"
-
 #include "core/random.h"
 
 namespace plotscan::cloud {

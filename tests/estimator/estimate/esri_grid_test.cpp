@@ -4,12 +4,12 @@
 #include <cmath>
 #include <limits>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "estimate/ground_grids.h"
+#include "temporary_folder.h"
 
 namespace plotscan::estimate {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/estimate.h"
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include "core/error.h"
 #include "estimate/plot_map.h"
 #include "estimate/plot_tables.h"
+#include "temporary_folder.h"
 
 namespace plotscan::estimate {
 namespace {

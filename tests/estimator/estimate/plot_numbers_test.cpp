@@ -3,13 +3,13 @@
 
 #include <numbers>
 
-#include "estimator/synthetic_farm.h"
-#include "temporary_folder.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "estimator/synthetic_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan::estimate {
 namespace {

@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "estimator/methods/run_on_farm.h"
 #include <gdal.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 #include "core/error.h"
 #include "core/geodesy.h"
 #include "core/plot_features.h"
+#include "estimator/methods/run_on_farm.h"
 
 namespace plotscan::estimate {
 namespace {

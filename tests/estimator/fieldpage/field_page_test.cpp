@@ -3,7 +3,6 @@
 
 #include <string>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
@@ -11,6 +10,7 @@
 #include "core/manifest.h"
 #include "estimate/estimate.h"
 #include "fieldpage/shown.h"
+#include "temporary_folder.h"
 
 namespace plotscan::fieldpage {
 namespace {

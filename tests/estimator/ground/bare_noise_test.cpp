@@ -5,8 +5,9 @@
 #include <cmath>
 #include <vector>
 
-#include "random_fields.h"
 #include <gtest/gtest.h>
+
+#include "random_fields.h"
 
 namespace plotscan::ground {
 namespace {

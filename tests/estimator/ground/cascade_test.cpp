@@ -3,10 +3,11 @@
 
 #include <cstddef>
 
-#include "dense_normal.h"
-#include "random_fields.h"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
+
+#include "dense_normal.h"
+#include "random_fields.h"
 
 namespace plotscan::ground {
 namespace {

@@ -7,11 +7,11 @@
 #include <map>
 #include <vector>
 
-#include "random_fields.h"
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
 
 #include "core/error.h"
+#include "random_fields.h"
 
 namespace plotscan::ground {
 namespace {

@@ -6,9 +6,10 @@
 #include <cstdlib>
 #include <limits>
 
+#include <gtest/gtest.h>
+
 #include "random_fields.h"
 #include "synthetic_field.h"
-#include <gtest/gtest.h>
 
 namespace plotscan::ground {
 namespace {

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "random_fields.h"
 #include <gtest/gtest.h>
+
+#include "random_fields.h"
 
 namespace plotscan::ground {
 namespace {

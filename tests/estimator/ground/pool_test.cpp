@@ -3,8 +3,9 @@
 
 #include <cstdlib>
 
-#include "random_fields.h"
 #include <gtest/gtest.h>
+
+#include "random_fields.h"
 
 namespace plotscan::ground {
 namespace {

@@ -5,11 +5,12 @@
 #include <cmath>
 #include <cstddef>
 
-#include "dense_normal.h"
-#include "random_fields.h"
 #include <Eigen/Dense>
 #include <gtest/gtest.h>
 #include <tbb/task_arena.h>
+
+#include "dense_normal.h"
+#include "random_fields.h"
 
 namespace plotscan::ground {
 namespace {

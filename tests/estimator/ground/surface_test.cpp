@@ -8,11 +8,11 @@
 #include <set>
 #include <vector>
 
-#include "synthetic_field.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/random.h"
+#include "synthetic_field.h"
 
 namespace plotscan::ground {
 namespace {

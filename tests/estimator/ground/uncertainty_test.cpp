@@ -5,9 +5,10 @@
 #include <cmath>
 #include <vector>
 
+#include <gtest/gtest.h>
+
 #include "dense_normal.h"
 #include "random_fields.h"
-#include <gtest/gtest.h>
 
 namespace plotscan::ground {
 namespace {

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/height_profile.h"
 
-#include "canopies.h"
 #include <gtest/gtest.h>
 
+#include "canopies.h"
 #include "heights/features.h"
 
 namespace plotscan::heights {

@@ -4,8 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include "canopies.h"
 #include <gtest/gtest.h>
+
+#include "canopies.h"
 
 namespace plotscan::heights {
 namespace {

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/measure_heights.h"
 
-#include "canopies.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+
+#include "canopies.h"
 
 namespace plotscan::heights {
 namespace {

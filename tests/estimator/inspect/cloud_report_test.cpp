@@ -5,13 +5,13 @@
 #include <cstring>
 #include <string>
 
-#include "temporary_folder.h"
 #include <fmt/core.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan::inspect {
 namespace {

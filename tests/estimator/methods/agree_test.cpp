@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "methods/agree.h"
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan::methods {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
-#include "run_on_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -10,6 +9,7 @@
 #include "core/manifest.h"
 #include "core/plot_features.h"
 #include "core/random.h"
+#include "run_on_farm.h"
 
 namespace plotscan::methods {
 namespace {

@@ -7,13 +7,13 @@
 #include <string>
 #include <vector>
 
-#include "cloud/tile_store.h"
-#include "methods/lattice/lattice.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "cloud/tile_store.h"
 #include "core/random.h"
 #include "core/statistics.h"
+#include "methods/lattice/lattice.h"
 
 namespace plotscan::estimate {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/run.h"
-#include "run_on_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +7,8 @@
 #include "core/manifest.h"
 #include "core/plot_features.h"
 #include "core/random.h"
+#include "methods/run.h"
+#include "run_on_farm.h"
 
 namespace plotscan::methods {
 namespace {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 
-#include "run_on_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +11,7 @@
 #include "core/manifest.h"
 #include "core/plot_features.h"
 #include "core/random.h"
+#include "run_on_farm.h"
 
 namespace plotscan::methods {
 namespace {

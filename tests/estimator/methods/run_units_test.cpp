@@ -2,8 +2,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "methods/run.h"
-#include "run_on_farm.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +10,8 @@
 #include "core/manifest.h"
 #include "core/plot_features.h"
 #include "core/random.h"
+#include "methods/run.h"
+#include "run_on_farm.h"
 
 namespace plotscan::methods {
 namespace {

@@ -4,12 +4,12 @@
 #include <set>
 #include <string>
 
-#include "methods/lattice/settings.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "methods/lattice/settings.h"
+#include "temporary_folder.h"
 
 namespace plotscan::methods {
 namespace {

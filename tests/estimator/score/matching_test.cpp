@@ -7,12 +7,12 @@
 #include <numeric>
 #include <set>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/random.h"
+#include "temporary_folder.h"
 
 namespace plotscan::score {
 namespace {

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/measured_table.h"
 
-#include "estimator/score/turned_box.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "estimator/score/turned_box.h"
 #include "score/run.h"
+#include "temporary_folder.h"
 
 namespace plotscan::score {
 namespace {

@@ -4,14 +4,14 @@
 
 #include <fstream>
 
-#include "estimator/score/turned_box.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/plot_features.h"
+#include "estimator/score/turned_box.h"
 #include "score/score_files.h"
+#include "temporary_folder.h"
 
 namespace plotscan::score {
 namespace {

@@ -4,15 +4,15 @@
 #include <cmath>
 #include <numbers>
 
-#include "estimator/score/turned_box.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/csv.h"
 #include "core/random.h"
+#include "estimator/score/turned_box.h"
 #include "score/height_score.h"
 #include "score/score_files.h"
+#include "temporary_folder.h"
 
 namespace plotscan::score {
 namespace {

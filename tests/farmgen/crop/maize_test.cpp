@@ -4,11 +4,11 @@
 #include <map>
 #include <numbers>
 
-#include "farmgen/crop/mesh_parts.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
 #include "crop/grow.h"
+#include "farmgen/crop/mesh_parts.h"
 #include "mesh/measure.h"
 
 namespace plotscan::crop {

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 #include <yaml-cpp/yaml.h>
 
@@ -12,6 +11,7 @@
 #include "mesh/measure.h"
 #include "mesh/mesh_import.h"
 #include "mesh/obj.h"
+#include "temporary_folder.h"
 
 namespace plotscan::crop {
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include "crop/grow.h"
 #include "mesh/measure.h"
 #include "mesh/mesh_import.h"
+#include "temporary_folder.h"
 
 namespace plotscan::crop {
 namespace {

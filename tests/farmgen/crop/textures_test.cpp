@@ -4,7 +4,6 @@
 #include <cmath>
 #include <vector>
 
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 #include <png.h>
 
@@ -12,6 +11,7 @@
 #include "crop/plant_builder.h"
 #include "mesh/mesh_import.h"
 #include "mesh/obj.h"
+#include "temporary_folder.h"
 
 namespace plotscan::crop {
 namespace {

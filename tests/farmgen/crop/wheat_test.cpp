@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <complex>
 
-#include "farmgen/crop/mesh_parts.h"
 #include <gtest/gtest.h>
 
 #include "crop/grow.h"
+#include "farmgen/crop/mesh_parts.h"
 #include "mesh/measure.h"
 
 namespace plotscan::crop {

@@ -2,14 +2,14 @@
 // What `farmgen info` tells of a crop's default plot, against what was published of it.
 #include <cmath>
 
-#include "description/load_description.h"
-#include "planting/generate.h"
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 
 #include "core/csv.h"
 #include "crop/grow.h"
+#include "description/load_description.h"
 #include "farm/summary.h"
+#include "planting/generate.h"
+#include "temporary_folder.h"
 
 namespace plotscan::description {
 namespace {

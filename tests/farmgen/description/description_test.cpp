@@ -3,12 +3,12 @@
 #include <numbers>
 #include <ostream>
 
-#include "description/load_description.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "description/load_description.h"
+#include "temporary_folder.h"
 
 namespace plotscan::description {
 namespace {

@@ -2,13 +2,13 @@
 
 #include <ostream>
 
-#include "../example_farm.h"
-#include "description/load_description.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_farm.h"
 #include "core/angle.h"
 #include "core/error.h"
+#include "description/load_description.h"
 
 namespace plotscan::description {
 namespace {

@@ -1,19 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <fstream>
 
-#include "../example_farm.h"
-#include "description/load_description.h"
-#include "farmfolder/read_farm.h"
-#include "farmfolder/write_farm.h"
-#include "planting/generate.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_farm.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "crop/grow.h"
+#include "description/load_description.h"
+#include "farmfolder/read_farm.h"
+#include "farmfolder/write_farm.h"
 #include "mesh/measure.h"
 #include "mesh/obj.h"
+#include "planting/generate.h"
 
 namespace plotscan::description {
 namespace {
@@ -29,7 +29,7 @@ farm::Farm example(const TemporaryFolder& folder, const std::string& models) {
 }
 
 void write(const TemporaryFolder& folder, const farm::Farm& farm) {
-  farmfolder::write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
+  farmfolder::write_farm(farm, folder.path() / "farm", {.command = "farmgen generate"});
 }
 
 TEST(GrownModels, AreWhatTheCropGrows) {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <ostream>
 
-#include "../example_trials.h"
-#include "description/load_description.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_trials.h"
 #include "core/error.h"
+#include "description/load_description.h"
 
 namespace plotscan::description {
 namespace {

@@ -3,11 +3,11 @@
 #include <map>
 #include <set>
 
-#include "description/load_description.h"
-#include "planting/generate.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "description/load_description.h"
+#include "planting/generate.h"
 
 namespace plotscan::description {
 namespace {

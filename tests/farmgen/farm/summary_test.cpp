@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farm/summary.h"
 
-#include "../example_farm.h"
-#include "description/load_description.h"
-#include "planting/generate.h"
 #include <gtest/gtest.h>
 
+#include "../example_farm.h"
+#include "description/load_description.h"
 #include "mesh/measure.h"
+#include "planting/generate.h"
 
 namespace plotscan::farm {
 namespace {

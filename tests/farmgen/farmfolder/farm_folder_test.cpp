@@ -3,21 +3,21 @@
 #include <fstream>
 #include <ostream>
 
-#include "../example_farm.h"
-#include "description/load_description.h"
-#include "farmfolder/read_farm.h"
-#include "farmfolder/write_farm.h"
-#include "planting/generate.h"
-#include "temporary_folder.h"
-#include "test_images.h"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_farm.h"
 #include "core/error.h"
+#include "description/load_description.h"
 #include "farm/farm.h"
+#include "farmfolder/read_farm.h"
+#include "farmfolder/write_farm.h"
 #include "mesh/alpha_mask.h"
+#include "planting/generate.h"
+#include "temporary_folder.h"
+#include "test_images.h"
 
 namespace plotscan::farmfolder {
 namespace {
@@ -91,7 +91,7 @@ farm::Farm written_example(const TemporaryFolder& folder) {
   const planting::FarmDescription description =
       description::load_description(write_example(folder));
   farm::Farm farm = planting::generate(description, 42);
-  write_farm(farm, folder.path() / "farm", false,
+  write_farm(farm, folder.path() / "farm",
              {.command = "farmgen generate", .inputs = planting::input_files(description)});
   return farm;
 }
@@ -120,7 +120,7 @@ TEST(FarmFolder, ReadsBackPlantsThatLeanAndPlantsOutsidePlots) {
   const farm::Farm farm =
       planting::generate(description::load_description(write_leaning_example(folder)), 5);
   ASSERT_EQ(farm.plants.back().plot, 0u);
-  write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
+  write_farm(farm, folder.path() / "farm", {.command = "farmgen generate"});
   expect_equal(farm, read_farm(folder.path() / "farm"));
 }
 
@@ -130,11 +130,10 @@ TEST(FarmFolder, ReadsBackAFarmWithoutPlants) {
       description::load_description(write_example(folder), {"plants.count=0"}), 5);
   ASSERT_EQ(farm.plots.size(), 5u);
   double last_share = 0;
-  write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"},
-             [&](double share) {
-               EXPECT_GE(share, last_share);
-               last_share = share;
-             });
+  write_farm(farm, folder.path() / "farm", {.command = "farmgen generate"}, {}, [&](double share) {
+    EXPECT_GE(share, last_share);
+    last_share = share;
+  });
   EXPECT_EQ(last_share, 1);
   expect_equal(farm, read_farm(folder.path() / "farm"));
 }
@@ -144,10 +143,10 @@ TEST(FarmFolder, TheSameDescriptionAndSeedWriteTheSameBytes) {
   const planting::FarmDescription description =
       description::load_description(write_example(folder));
   for (const char* name : {"a", "b"}) {
-    write_farm(planting::generate(description, 42), folder.path() / name, false,
+    write_farm(planting::generate(description, 42), folder.path() / name,
                {.command = "farmgen generate", .inputs = planting::input_files(description)});
   }
-  write_farm(planting::generate(description, 43), folder.path() / "c", false,
+  write_farm(planting::generate(description, 43), folder.path() / "c",
              {.command = "farmgen generate"});
   std::size_t files = 0;
   for (const auto& entry : fs::recursive_directory_iterator(folder.path() / "a")) {
@@ -167,8 +166,8 @@ TEST(FarmFolder, HasTheSameBytesForAnyNumberOfThreads) {
   const farm::Farm farm = planting::generate(
       description::load_description(write_example(folder), {"plants.count=1500"}), 42);
   for (const int threads : {1, 3}) {
-    write_farm(farm, folder.path() / std::to_string(threads), false,
-               {.command = "farmgen generate"}, {}, threads);
+    write_farm(farm, folder.path() / std::to_string(threads), {.command = "farmgen generate"},
+               {.threads = threads});
   }
   for (const char* file : {"world.sdf", "truth/plants.csv"})
     EXPECT_EQ(text_of(folder.path() / "1" / file), text_of(folder.path() / "3" / file)) << file;
@@ -197,10 +196,10 @@ TEST(FarmFolder, WritingRefusesToReplaceUnlessAsked) {
   const TemporaryFolder folder;
   const farm::Farm farm = written_example(folder);
   EXPECT_THAT(message_of<InputError>([&] {
-                write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
+                write_farm(farm, folder.path() / "farm", {.command = "farmgen generate"});
               }),
               HasSubstr("--force"));
-  write_farm(farm, folder.path() / "farm", true, {.command = "farmgen generate"});
+  write_farm(farm, folder.path() / "farm", {.command = "farmgen generate"}, {.replace = true});
 }
 
 struct Damage {
@@ -290,7 +289,7 @@ TEST(FarmFolder, KeepsReflectancesAndMasks) {
                    "plants: {count: 2, models: [{mesh: m.obj, reflectance: {stem: 0.33}},\n"
                    "  {crop: soybean, stage: V2, reflectance: {leaf: 0.51, pod: 0.2}}]}\n");
   const farm::Farm made = planting::generate(description::load_description(description), 1);
-  write_farm(made, folder.path() / "farm", false, {.command = "farmgen generate"});
+  write_farm(made, folder.path() / "farm", {.command = "farmgen generate"});
   const farm::Farm read = read_farm(folder.path() / "farm");
   EXPECT_EQ(read.soil_reflectance, 0.15);
   ASSERT_EQ(read.models.size(), 2u);

@@ -4,18 +4,18 @@
 #include <cmath>
 #include <numbers>
 
-#include "../example_farm.h"
-#include "description/load_description.h"
-#include "farmfolder/read_farm.h"
-#include "farmfolder/write_farm.h"
-#include "planting/generate.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include "../example_farm.h"
 #include "core/error.h"
 #include "core/plot_features.h"
+#include "description/load_description.h"
+#include "farmfolder/read_farm.h"
+#include "farmfolder/write_farm.h"
+#include "planting/generate.h"
 
 namespace plotscan::farmfolder {
 namespace {
@@ -88,7 +88,7 @@ farm::Farm anchored_example(const TemporaryFolder& folder) {
       write_example(folder),
       {"anchor.latitude_deg=37.2", "anchor.altitude_m=620", "anchor.longitude_deg=-80.58"});
   farm::Farm farm = planting::generate(description, 42);
-  write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
+  write_farm(farm, folder.path() / "farm", {.command = "farmgen generate"});
   return farm;
 }
 
@@ -143,7 +143,7 @@ TEST(Geodesy, TheAnchorIsReadBackAndAFarmWithoutOneHasNone) {
   EXPECT_EQ(read.anchor->altitude_m, 620);
   const farm::Farm bare =
       planting::generate(description::load_description(write_example(folder)), 42);
-  write_farm(bare, folder.path() / "bare", false, {.command = "farmgen generate"});
+  write_farm(bare, folder.path() / "bare", {.command = "farmgen generate"});
   EXPECT_FALSE(read_farm(folder.path() / "bare").anchor);
   EXPECT_FALSE(std::filesystem::exists(folder.path() / "bare/truth/plots_wgs84.geojson"));
 }

@@ -4,10 +4,6 @@
 #include <filesystem>
 #include <map>
 
-#include "../example_farm.h"
-#include "description/load_description.h"
-#include "farmfolder/write_farm.h"
-#include "planting/generate.h"
 #include <gtest/gtest.h>
 #include <sdf/Geometry.hh>
 #include <sdf/Link.hh>
@@ -17,8 +13,12 @@
 #include <sdf/Visual.hh>
 #include <sdf/World.hh>
 
+#include "../example_farm.h"
 #include "core/error.h"
+#include "description/load_description.h"
+#include "farmfolder/write_farm.h"
 #include "mesh/mesh_import.h"
+#include "planting/generate.h"
 
 namespace plotscan::farmfolder {
 namespace {
@@ -29,7 +29,7 @@ using plotscan::testing::TemporaryFolder;
 farm::Farm write_leaning_farm(const TemporaryFolder& folder) {
   farm::Farm farm =
       planting::generate(description::load_description(write_leaning_example(folder)), 5);
-  write_farm(farm, folder.path() / "farm", false, {.command = "test"});
+  write_farm(farm, folder.path() / "farm", {.command = "test"});
   return farm;
 }
 

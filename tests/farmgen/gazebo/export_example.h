@@ -8,10 +8,9 @@
 #include "description/load_description.h"
 #include "farmfolder/read_farm.h"
 #include "farmfolder/write_farm.h"
+#include "gazebo/export_world.h"
 #include "planting/generate.h"
 #include "temporary_folder.h"
-
-#include "gazebo/export_world.h"
 
 namespace plotscan::gazebo {
 
@@ -53,7 +52,7 @@ class ExportExample {
     folder_.write("thistle.mtl", kThistleMaterials);
     farmfolder::write_farm(
         planting::generate(description::load_description(folder_.write("example.yaml", text())), 5),
-        farm_folder(), false, {.command = "test"});
+        farm_folder(), {.command = "test"});
     farm_ = std::make_unique<farm::Farm>(farmfolder::read_farm(farm_folder()));
     for (farm::Plant& plant : farm_->plants) {
       if (plant.id % 5 == 0) plant.kind = farm::PlantKind::weed;

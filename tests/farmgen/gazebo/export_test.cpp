@@ -5,9 +5,6 @@
 #include <map>
 #include <sstream>
 
-#include "farmgen/gazebo/export_example.h"
-#include "sdfxml/elements.h"
-#include "test_images.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <tinyxml2.h>
@@ -15,9 +12,12 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/text_file.h"
-#include "gazebo/groups.h"
+#include "farmgen/gazebo/export_example.h"
 #include "gazebo/internal/naming.h"
+#include "gazebo/merged_models.h"
 #include "mesh/alpha_mask.h"
+#include "sdfxml/elements.h"
+#include "test_images.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -166,8 +166,8 @@ TEST(Export, RowsOfDifferentTrialsAreDifferentModels) {
   farm::Farm farm = example.farm();
   const auto names = [&] {
     std::vector<std::string> all;
-    for (const PlantGroups& model : plant_groups(farm, Merge::row))
-      if (model.label == SurfaceClass::crop && !model.name.starts_with("plants"))
+    for (const MergedModel& model : merged_models(farm, Merge::row))
+      if (model.label == farm::SurfaceClass::crop && !model.name.starts_with("plants"))
         all.push_back(model.name);
     return all;
   };

@@ -5,13 +5,13 @@
 #include <regex>
 #include <sstream>
 
-#include "farmgen/gazebo/export_example.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <tinyxml2.h>
 
 #include "core/error.h"
+#include "farmgen/gazebo/export_example.h"
 #include "gazebo/internal/world_file.h"
 #include "scan/trajectory.h"
 

@@ -5,15 +5,15 @@
 #include <map>
 #include <set>
 
-#include "farmgen/gazebo/export_example.h"
-#include "gazebo_vector.h"
-#include "sdfxml/elements.h"
 #include <gtest/gtest.h>
 #include <sdf/sdf.hh>
 #include <tinyxml2.h>
 
 #include "core/error.h"
+#include "farmgen/gazebo/export_example.h"
 #include "gazebo/internal/naming.h"
+#include "gazebo_vector.h"
+#include "sdfxml/elements.h"
 
 namespace plotscan::gazebo {
 namespace {

@@ -2,8 +2,6 @@
 // Exported meshes as Gazebo's own loader reads them, ign-common 4 of Fortress.
 #include <filesystem>
 
-#include "farmgen/gazebo/export_example.h"
-#include "gazebo_vector.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 #include <ignition/common/Material.hh>
@@ -12,6 +10,8 @@
 #include <ignition/common/SubMesh.hh>
 
 #include "core/error.h"
+#include "farmgen/gazebo/export_example.h"
+#include "gazebo_vector.h"
 
 namespace plotscan::gazebo {
 namespace {

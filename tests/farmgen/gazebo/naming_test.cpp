@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/internal/naming.h"
 
-#include "sdfxml/elements.h"
 #include <gtest/gtest.h>
+
+#include "sdfxml/elements.h"
 
 namespace plotscan::gazebo {
 namespace {

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // Without libsdformat worlds are refused: the message says which package is missing.
-#include "read_world_fixture.h"
 #include <gmock/gmock.h>
+
+#include "read_world_fixture.h"
 
 namespace plotscan::gazebo {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "temporary_folder.h"
-#include "world_text.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "gazebo/read_world.h"
+#include "temporary_folder.h"
+#include "world_text.h"
 
 namespace plotscan::gazebo {
 

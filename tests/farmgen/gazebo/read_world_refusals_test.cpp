@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // Worlds that cannot be read, and what is said of them.
 
+#include <gmock/gmock.h>
+
 #include "read_world_fixture.h"
 #include "temporary_folder.h"
 #include "world_text.h"
-#include <gmock/gmock.h>
 
 namespace plotscan::gazebo {
 namespace {

@@ -4,13 +4,13 @@
 
 #include <cstdlib>
 
-#include "read_world_fixture.h"
-#include "world_text.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "mesh/mesh_import.h"
+#include "read_world_fixture.h"
+#include "world_text.h"
 
 namespace plotscan::gazebo {
 namespace {
@@ -170,17 +170,17 @@ TEST_F(ReadWorld, ClassesComeFromLaserRetroElseFromNames) {
   const auto retro = [](const std::string& value) {
     return "<laser_retro>" + value + "</laser_retro>";
   };
-  EXPECT_EQ(kind("a", retro("1"), box), SurfaceClass::ground);
-  EXPECT_EQ(kind("a", retro("2"), box), SurfaceClass::crop);
-  EXPECT_EQ(kind("a", retro("3"), box), SurfaceClass::weed);
-  EXPECT_EQ(kind("terrain", retro("4"), box), SurfaceClass::other);
-  EXPECT_EQ(kind("a", retro("2000"), box), SurfaceClass::other);
-  EXPECT_EQ(kind("a", "", box), SurfaceClass::other);
-  EXPECT_EQ(kind("a", "", "<plane><size>2 2</size></plane>"), SurfaceClass::ground);
-  EXPECT_EQ(kind("ground_plane", "", box), SurfaceClass::ground);
-  EXPECT_EQ(kind("terrain", "", box), SurfaceClass::ground);
-  EXPECT_EQ(kind("plot_12", "", box), SurfaceClass::crop);
-  EXPECT_EQ(kind("plot_12_weeds", "", box), SurfaceClass::weed);
+  EXPECT_EQ(kind("a", retro("1"), box), farm::SurfaceClass::ground);
+  EXPECT_EQ(kind("a", retro("2"), box), farm::SurfaceClass::crop);
+  EXPECT_EQ(kind("a", retro("3"), box), farm::SurfaceClass::weed);
+  EXPECT_EQ(kind("terrain", retro("4"), box), farm::SurfaceClass::other);
+  EXPECT_EQ(kind("a", retro("2000"), box), farm::SurfaceClass::other);
+  EXPECT_EQ(kind("a", "", box), farm::SurfaceClass::other);
+  EXPECT_EQ(kind("a", "", "<plane><size>2 2</size></plane>"), farm::SurfaceClass::ground);
+  EXPECT_EQ(kind("ground_plane", "", box), farm::SurfaceClass::ground);
+  EXPECT_EQ(kind("terrain", "", box), farm::SurfaceClass::ground);
+  EXPECT_EQ(kind("plot_12", "", box), farm::SurfaceClass::crop);
+  EXPECT_EQ(kind("plot_12_weeds", "", box), farm::SurfaceClass::weed);
 }
 
 TEST_F(ReadWorld, PlotsAndPlantsComeFromTheNearestName) {

@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <string>
 
-#include "sanitized.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "mesh/mesh_import.h"
+#include "sanitized.h"
+#include "temporary_folder.h"
 
 namespace plotscan::mesh {
 namespace {

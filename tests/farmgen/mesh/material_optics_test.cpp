@@ -2,8 +2,6 @@
 // What materials say of light: reflectances and masks, through files and back.
 #include <filesystem>
 
-#include "temporary_folder.h"
-#include "test_images.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -12,6 +10,8 @@
 #include "mesh/mesh_import.h"
 #include "mesh/obj.h"
 #include "mesh/reflectance.h"
+#include "temporary_folder.h"
+#include "test_images.h"
 
 namespace plotscan::mesh {
 namespace {

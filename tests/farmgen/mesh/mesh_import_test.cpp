@@ -6,7 +6,6 @@
 #include <cstring>
 #include <filesystem>
 
-#include "temporary_folder.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -14,6 +13,7 @@
 
 #include "core/error.h"
 #include "mesh/measure.h"
+#include "temporary_folder.h"
 
 namespace plotscan::mesh {
 namespace {

@@ -4,19 +4,19 @@
 #include <array>
 #include <filesystem>
 
-#include "farmgen/mesh/append.h"
-#include "temporary_folder.h"
-#include "test_images.h"
 #include <assimp/Importer.hpp>
 #include <assimp/scene.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "farmgen/mesh/append.h"
 #include "mesh/alpha_mask.h"
 #include "mesh/image_names.h"
 #include "mesh/measure.h"
 #include "mesh/mesh_import.h"
 #include "mesh/obj.h"
+#include "temporary_folder.h"
+#include "test_images.h"
 
 namespace plotscan::mesh {
 namespace {

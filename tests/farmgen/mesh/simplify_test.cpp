@@ -3,10 +3,10 @@
 #include <filesystem>
 #include <functional>
 
-#include "farmgen/mesh/append.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "farmgen/mesh/append.h"
 #include "mesh/measure.h"
 #include "mesh/mesh.h"
 #include "mesh/mesh_import.h"

@@ -6,17 +6,17 @@
 #include <map>
 #include <set>
 
-#include "../example_farm.h"
-#include "description/load_description.h"
-#include "planting/plot_layout.h"
-#include "terrain/internal/bases.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_farm.h"
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
+#include "description/load_description.h"
 #include "farm/heights.h"
+#include "planting/plot_layout.h"
+#include "terrain/internal/bases.h"
 
 namespace plotscan::planting {
 namespace {

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filesystem>
 
-#include "../example_farm.h"
-#include "description/load_description.h"
-#include "planting/generate.h"
-#include "planting/layout_table.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_farm.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/plot_features.h"
+#include "description/load_description.h"
 #include "farm/summary.h"
+#include "planting/generate.h"
+#include "planting/layout_table.h"
 
 namespace plotscan::planting {
 namespace {

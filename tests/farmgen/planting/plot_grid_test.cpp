@@ -4,13 +4,13 @@
 #include <numbers>
 #include <set>
 
-#include "../../temporary_folder.h"
-#include "planting/plot_layout.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../../temporary_folder.h"
 #include "core/angle.h"
 #include "core/error.h"
+#include "planting/plot_layout.h"
 
 namespace plotscan::planting {
 namespace {

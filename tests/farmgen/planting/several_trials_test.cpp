@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <vector>
 
-#include "../example_trials.h"
-#include "description/load_description.h"
-#include "farmfolder/plot_table.h"
-#include "planting/generate.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_trials.h"
 #include "core/error.h"
 #include "core/text_file.h"
+#include "description/load_description.h"
 #include "farm/summary.h"
+#include "farmfolder/plot_table.h"
+#include "planting/generate.h"
+#include "temporary_folder.h"
 
 namespace plotscan::planting {
 namespace {

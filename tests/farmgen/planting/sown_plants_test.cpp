@@ -5,15 +5,15 @@
 #include <numbers>
 #include <set>
 
-#include "../example_farm.h"
-#include "description/load_description.h"
-#include "planting/generate.h"
-#include "planting/internal/plants.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_farm.h"
 #include "core/angle.h"
 #include "core/error.h"
+#include "description/load_description.h"
+#include "planting/generate.h"
+#include "planting/internal/plants.h"
 
 namespace plotscan::planting {
 namespace {

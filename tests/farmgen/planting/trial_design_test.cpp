@@ -6,12 +6,12 @@
 #include <map>
 #include <set>
 
-#include "planting/plot_layout.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "planting/plot_layout.h"
+#include "temporary_folder.h"
 
 namespace plotscan::planting {
 namespace {

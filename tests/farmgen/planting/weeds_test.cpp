@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 
-#include "../example_trials.h"
-#include "description/load_description.h"
-#include "planting/generate.h"
-#include "planting/internal/plants.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "../example_trials.h"
 #include "core/error.h"
+#include "description/load_description.h"
+#include "planting/generate.h"
+#include "planting/internal/plants.h"
 
 namespace plotscan::planting {
 namespace {

@@ -4,8 +4,9 @@
 #include <fstream>
 #include <sstream>
 
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
+
+#include "temporary_folder.h"
 
 namespace plotscan::sdfxml {
 namespace {

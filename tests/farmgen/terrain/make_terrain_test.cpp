@@ -7,17 +7,17 @@
 #include <cstdio>
 #include <limits>
 
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <png.h>
+
 #include "../example_farm.h"
+#include "core/error.h"
 #include "description/load_description.h"
 #include "farmfolder/read_farm.h"
 #include "farmfolder/write_farm.h"
 #include "planting/generate.h"
 #include "terrain/internal/refine.h"
-#include <gmock/gmock.h>
-#include <gtest/gtest.h>
-#include <png.h>
-
-#include "core/error.h"
 
 namespace plotscan::terrain {
 namespace {
@@ -135,7 +135,7 @@ TEST(Xyz, PointsOfAGridInAnyOrderAreMetExactly) {
     EXPECT_NEAR(farm.terrain.height(point.x() - 540007.5, point.y() - 4118005).value(),
                 point.z() - 600.25, 1e-12);
   }
-  farmfolder::write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
+  farmfolder::write_farm(farm, folder.path() / "farm", {.command = "farmgen generate"});
   EXPECT_EQ(farmfolder::read_farm(folder.path() / "farm").terrain_origin_m, farm.terrain_origin_m);
   EXPECT_THAT(refusal(folder, "xyz: grid.xyz, keep_coordinates: true"),
               HasSubstr("grid.xyz: terrain vertex 0 is more than 100 km from the farm's centre"));

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <complex>
 
-#include "terrain/internal/refine.h"
-#include "terrain/make_terrain.h"
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "terrain/internal/refine.h"
+#include "terrain/make_terrain.h"
 
 namespace plotscan::terrain {
 namespace {

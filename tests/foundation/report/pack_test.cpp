@@ -5,11 +5,11 @@
 #include <set>
 #include <span>
 
-#include "foundation/report/unpack.h"
 #include <gmock/gmock.h>
 
 #include "core/error.h"
 #include "core/random.h"
+#include "foundation/report/unpack.h"
 #include "report/internal/pack_cloud.h"
 #include "report/internal/packed.h"
 #include "report/shown_cloud.h"

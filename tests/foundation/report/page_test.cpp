@@ -3,10 +3,10 @@
 
 #include <string>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan::report {
 namespace {

@@ -4,12 +4,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "flight/route.h"
+#include "temporary_folder.h"
 
 namespace plotscan::flight {
 namespace {

@@ -2,16 +2,16 @@
 // A farm and the worlds exported from it, read back, are the same to a laser.
 #include <cmath>
 
+#include <gtest/gtest.h>
+
 #include "description/load_description.h"
 #include "farmfolder/read_farm.h"
 #include "farmfolder/write_farm.h"
 #include "farmgen/example_farm.h"
-#include "planting/generate.h"
-#include "simulated.h"
-#include <gtest/gtest.h>
-
 #include "gazebo/export_world.h"
 #include "gazebo/read_world.h"
+#include "planting/generate.h"
+#include "simulated.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -27,7 +27,7 @@ farm::Farm farm_with_weeds(const TemporaryFolder& folder) {
       folder.write("weedy.yaml", testing::example_description() +
                                      "weeds: {per_m2: 2, models: [{crop: wheat, name: weed}]}\n");
   farmfolder::write_farm(planting::generate(description::load_description(description), 3),
-                         folder.path() / "farm", false, {.command = "farmgen generate"});
+                         folder.path() / "farm", {.command = "farmgen generate"});
   return farmfolder::read_farm(folder.path() / "farm");
 }
 

@@ -4,9 +4,10 @@
 
 #include <cmath>
 
-#include "sub_rays.h"
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
+
+#include "sub_rays.h"
 
 namespace plotscan::lidar {
 namespace {

@@ -5,9 +5,10 @@
 #include <map>
 #include <numbers>
 
+#include <gtest/gtest.h>
+
 #include "plate_scenes.h"
 #include "sub_rays.h"
-#include <gtest/gtest.h>
 
 namespace plotscan::lidar {
 namespace {

@@ -2,9 +2,10 @@
 // The ceiling over a canopy against every triangle tried one by one.
 #include "lidar/internal/canopy_ceiling.h"
 
+#include <gtest/gtest.h>
+
 #include "moeller_trumbore.h"
 #include "small_farm.h"
-#include <gtest/gtest.h>
 
 namespace plotscan::lidar {
 namespace {

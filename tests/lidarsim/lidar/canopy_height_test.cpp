@@ -2,16 +2,16 @@
 // The canopy's true heights against closed forms and against every triangle tried one by one.
 #include "lidar/canopy_height.h"
 
+#include <gtest/gtest.h>
+
+#include "core/statistics.h"
 #include "farmfolder/read_farm.h"
 #include "farmfolder/write_farm.h"
+#include "mesh/alpha_mask.h"
 #include "moeller_trumbore.h"
 #include "small_farm.h"
 #include "temporary_folder.h"
 #include "test_images.h"
-#include <gtest/gtest.h>
-
-#include "core/statistics.h"
-#include "mesh/alpha_mask.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -180,10 +180,10 @@ TEST(CanopyHeight, ComesBackWithTheFarm) {
   farm::Farm farm = testing::small_farm();
   for (std::size_t i = 0; i < farm.plants.size(); ++i)
     farm.plants[i].id = static_cast<std::uint32_t>(i + 1);
-  farmfolder::write_farm(farm, folder.path() / "without", false, {.command = "test"});
+  farmfolder::write_farm(farm, folder.path() / "without", {.command = "test"});
   EXPECT_FALSE(farmfolder::read_farm(folder.path() / "without").plots[0].canopy);
   measure_canopies(farm, 1);
-  farmfolder::write_farm(farm, folder.path() / "with", false, {.command = "test"});
+  farmfolder::write_farm(farm, folder.path() / "with", {.command = "test"});
   const farm::Farm again = farmfolder::read_farm(folder.path() / "with");
   ASSERT_TRUE(again.plots[1].canopy);
   EXPECT_EQ(again.plots[1].canopy->p95, farm.plots[1].canopy->p95);

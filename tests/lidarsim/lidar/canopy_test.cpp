@@ -5,12 +5,12 @@
 #include <numbers>
 #include <numeric>
 
-#include "simulated.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "crop/grow.h"
 #include "mesh/measure.h"
+#include "simulated.h"
 
 namespace plotscan::lidar {
 namespace {

@@ -3,18 +3,18 @@
 
 #include <cmath>
 
-#include "farmfolder/write_farm.h"
-#include "small_farm.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
 
 #include "core/error.h"
 #include "core/manifest.h"
+#include "farmfolder/write_farm.h"
 #include "lidar/fly_place.h"
 #include "record/convert.h"
 #include "scan/trajectory.h"
+#include "small_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -37,7 +37,7 @@ TEST(Fly, WritesAScanFolder) {
   const auto scan = folder.path() / "scan";
   double last_share = 0;
   const FlySummary summary =
-      fly(farm, scan, {.flight = short_flight(folder), .seed = 4}, false, [&](double share) {
+      fly(farm, scan, {.flight = short_flight(folder), .seed = 4}, [&](double share) {
         EXPECT_GE(share, last_share);
         last_share = share;
       });
@@ -65,7 +65,7 @@ TEST(Fly, SameBytesForAnyNumberOfThreads) {
   const farm::Farm farm = testing::small_farm();
   const auto bytes = [&](int threads, const std::string& file) {
     const auto scan = folder.path() / std::to_string(threads);
-    if (!exists(scan)) fly(farm, scan, {.flight = short_flight(folder), .threads = threads}, false);
+    if (!exists(scan)) fly(farm, scan, {.flight = short_flight(folder), .threads = threads});
     return read_text(scan / file);
   };
   for (const std::string file : {"cloud.pcd", "trajectory.csv", "manifest.json"}) {
@@ -80,11 +80,10 @@ TEST(Fly, PlannedFlightRepeatsFromItsTrajectory) {
   const TemporaryFolder folder;
   const farm::Farm farm = testing::small_farm();
   const auto planned = folder.path() / "planned";
-  const FlySummary summary =
-      fly(farm, planned, {.altitude_m = 5, .speed_m_s = 4, .spacing_m = 2}, false);
+  const FlySummary summary = fly(farm, planned, {.altitude_m = 5, .speed_m_s = 4, .spacing_m = 2});
   EXPECT_GT(summary.duration_s, 5);
   const auto repeated = folder.path() / "repeated";
-  fly(farm, repeated, {.flight = planned / "trajectory.csv"}, false);
+  fly(farm, repeated, {.flight = planned / "trajectory.csv"});
   EXPECT_TRUE(read_text(planned / "cloud.pcd") == read_text(repeated / "cloud.pcd"));
 }
 
@@ -92,7 +91,7 @@ TEST(Fly, SpinIsTheSensorsOwnUnlessAskedFor) {
   const TemporaryFolder folder;
   const farm::Farm farm = testing::small_farm();
   const auto options_of = [&](const char* name, const FlyOptions& options) {
-    fly(farm, folder.path() / name, options, false);
+    fly(farm, folder.path() / name, options);
     return read_manifest(folder.path() / name)["options"];
   };
   EXPECT_EQ(options_of("own", {.speed_m_s = 4})["spin_hz"], 10.0);
@@ -113,7 +112,7 @@ TEST(Fly, WindMovesThePlannedFlightAndNoOther) {
     options.speed_m_s = 3;
     options.pattern = "single";
     const auto scan = folder.path() / name;
-    fly(farm, scan, options, false);
+    fly(farm, scan, options);
     return read_text(scan / "trajectory.csv");
   };
   const std::string still = trajectory("still", {});
@@ -133,7 +132,7 @@ TEST(Fly, FliesWaypoints) {
                                  "waypoints:\n  - {x_m: -3, y_m: 0, z_m: 5}\n"
                                  "  - {x_m: 3, y_m: 0, z_m: 7, hold_s: 1}\n");
   const auto scan = folder.path() / "scan";
-  fly(testing::small_farm(), scan, {.waypoints = file}, false);
+  fly(testing::small_farm(), scan, {.waypoints = file});
   const scan::Trajectory flown = scan::read_trajectory(scan / "trajectory.csv");
   EXPECT_NEAR(
       (flown.world_from_body(flown.end_s()).translation() - Eigen::Vector3d(3, 0, 7)).norm(), 0,
@@ -148,7 +147,7 @@ TEST(Fly, ImpossibleOptionsAreRefusedAndLeaveNothing) {
   const farm::Farm farm = testing::small_farm();
   const auto scan = folder.path() / "out" / "scan";
   const auto refusal = [&](const FlyOptions& options) {
-    return message_of<InputError>([&] { fly(farm, scan, options, false); });
+    return message_of<InputError>([&] { fly(farm, scan, options); });
   };
   EXPECT_THAT(refusal({.sensor = "os1"}), HasSubstr("\"os1\" is unknown; there are vlp16"));
   EXPECT_THAT(refusal({.spin_hz = 4.9}), HasSubstr("--spin 4.9 must be in [5, 20] Hz"));
@@ -185,8 +184,8 @@ TEST(Fly, FormatsBesideTheCloudAreWhatConvertMakes) {
   farm.anchor = Anchor{.latitude_deg = 37.2, .longitude_deg = -80.5, .altitude_m = 610};
   const auto plain = folder.path() / "plain";
   const auto scan = folder.path() / "scan";
-  fly(farm, plain, {.flight = way}, false);
-  fly(farm, scan, {.flight = way, .formats = kFormats}, false);
+  fly(farm, plain, {.flight = way});
+  fly(farm, scan, {.flight = way, .formats = kFormats});
   const nlohmann::json manifest = read_manifest(scan);
   EXPECT_EQ(manifest["options"]["formats"], kFormats);
   for (const std::string& format : kFormats) {
@@ -208,7 +207,7 @@ TEST(Fly, FormatsThatCannotBeAreRefusedBeforeTheFlight) {
   const auto scan = folder.path() / "scan";
   const auto refusal = [&](FlyOptions options) {
     options.flight = folder.path() / "absent";  // would be refused next
-    return message_of<InputError>([&] { fly(testing::small_farm(), scan, options, false); });
+    return message_of<InputError>([&] { fly(testing::small_farm(), scan, options); });
   };
   EXPECT_THAT(refusal({.formats = {"las", "xyz"}}),
               HasSubstr("--format \"xyz\" must be one of pcd, ply, las"));
@@ -225,16 +224,17 @@ TEST(Fly, ReplacesOnlyWhenAskedTo) {
   const TemporaryFolder folder;
   const farm::Farm farm = testing::small_farm();
   const auto scan = folder.path() / "scan";
-  const FlyOptions options{.flight = short_flight(folder)};
-  fly(farm, scan, options, false);
-  EXPECT_THAT(message_of<InputError>([&] { fly(farm, scan, options, false); }),
-              HasSubstr("--force"));
-  fly(farm, scan, options, true);
+  FlyOptions options{.flight = short_flight(folder)};
+  fly(farm, scan, options);
+  EXPECT_THAT(message_of<InputError>([&] { fly(farm, scan, options); }), HasSubstr("--force"));
+  options.replace = true;
+  EXPECT_NO_THROW(fly(farm, scan, options));
 }
 
-std::string flown_cloud(const TemporaryFolder& folder, const FlyOptions& options) {
+std::string flown_cloud(const TemporaryFolder& folder, FlyOptions options) {
   const auto scan = folder.path() / "scan";
-  fly(testing::small_farm(), scan, options, true);
+  options.replace = true;
+  fly(testing::small_farm(), scan, options);
   return read_text(scan / "cloud.pcd");
 }
 
@@ -255,7 +255,7 @@ std::filesystem::path written_farm(const TemporaryFolder& folder) {
   farm::Farm farm = testing::small_farm();
   for (std::size_t i = 0; i < farm.plants.size(); ++i)
     farm.plants[i].id = static_cast<std::uint32_t>(i + 1);  // as a farm's folder has them
-  farmfolder::write_farm(farm, folder.path() / "farm", false, {.command = "farmgen generate"});
+  farmfolder::write_farm(farm, folder.path() / "farm", {.command = "farmgen generate"});
   return folder.path() / "farm";
 }
 
@@ -282,7 +282,7 @@ TEST(FlyPlace, AWindThatMovesNothingIsRefused) {
 TEST(FlyPlace, AnEmptyScanSaysWhy) {
   const TemporaryFolder folder;
   const auto place = written_farm(folder);
-  FlyPlaceOptions options{.flight = {.flight = short_flight(folder)}, .replace = true};
+  FlyPlaceOptions options{.flight = {.flight = short_flight(folder), .replace = true}};
   const auto notes = [&] { return fly_place(place, folder.path() / "scan", options).notes; };
   EXPECT_THAT(notes(), IsEmpty());
   options.flight.flight = folder.write("far.tum", "0 9000 0 5 0 0 0 1\n1 9003 0 5 0 0 0 1\n");

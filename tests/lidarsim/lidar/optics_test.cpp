@@ -3,9 +3,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "small_farm.h"
-#include "temporary_folder.h"
-#include "test_images.h"
 #include <gtest/gtest.h>
 #include <vtkImageData.h>
 #include <vtkJPEGReader.h>
@@ -16,6 +13,9 @@
 #include "mesh/alpha_mask.h"
 #include "mesh/mesh_import.h"
 #include "mesh/reflectance.h"
+#include "small_farm.h"
+#include "temporary_folder.h"
+#include "test_images.h"
 
 namespace plotscan::lidar {
 namespace {

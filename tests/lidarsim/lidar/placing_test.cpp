@@ -4,14 +4,14 @@
 #include <map>
 #include <numbers>
 
-#include "simulated.h"
-#include "small_farm.h"
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 
 #include "flight/pose_errors.h"
 #include "lidar/fly.h"
 #include "record/scan_folder.h"
+#include "simulated.h"
+#include "small_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -101,9 +101,9 @@ TEST(Placing, FlightsReportWhatTheyErr) {
   const testing::TemporaryFolder folder;
   const farm::Farm farm = testing::small_farm();
   FlyOptions options{.range_noise_m = 0, .pose_error = "gps", .threads = 2};
-  fly(farm, folder.path() / "gps", options, false);
+  fly(farm, folder.path() / "gps", options);
   options.pose_error = "none";
-  fly(farm, folder.path() / "none", options, false);
+  fly(farm, folder.path() / "none", options);
   const auto read = [&](const char* scan, const char* file) {
     return scan::read_trajectory(folder.path() / scan / file);
   };

@@ -8,10 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "simulated.h"
 #include <Eigen/Geometry>
 
 #include "lidar/internal/beam.h"
+#include "simulated.h"
 
 namespace plotscan::lidar {
 

@@ -5,9 +5,10 @@
 #include <map>
 #include <optional>
 
+#include <gtest/gtest.h>
+
 #include "simulated.h"
 #include "small_farm.h"
-#include <gtest/gtest.h>
 
 namespace plotscan::lidar {
 namespace {

@@ -3,14 +3,14 @@
 #include <cmath>
 #include <map>
 
-#include "plate_scenes.h"
-#include "small_farm.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "lidar/fly.h"
+#include "plate_scenes.h"
+#include "small_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -140,7 +140,7 @@ TEST(ReturnsInScenes, WhatCannotBeIsRefused) {
                    "lasers: [{fires_us: 0, elevation_deg: 0}]\n");
   const auto refusal = [&](const FlyOptions& options) {
     return message_of<InputError>(
-        [&] { fly(testing::small_farm(), folder.path() / "scan", options, false); });
+        [&] { fly(testing::small_farm(), folder.path() / "scan", options); });
   };
   EXPECT_THAT(refusal({.flight = flight, .sub_rays = 0}), HasSubstr("--sub-rays 0 must be in"));
   EXPECT_THAT(refusal({.flight = flight, .sub_rays = 1025}), HasSubstr("[1, 1024]"));
@@ -148,8 +148,8 @@ TEST(ReturnsInScenes, WhatCannotBeIsRefused) {
               HasSubstr("--returns \"first\" must be one of strongest, last, dual"));
   EXPECT_THAT(refusal({.sensor = no_beam.string(), .flight = flight, .sub_rays = 2}),
               HasSubstr("--sub-rays 2 needs a beam; the file of sensor mine states none"));
-  fly(testing::small_farm(), folder.path() / "scan", {.sensor = no_beam.string(), .flight = flight},
-      false);
+  fly(testing::small_farm(), folder.path() / "scan",
+      {.sensor = no_beam.string(), .flight = flight});
 }
 
 }  // namespace

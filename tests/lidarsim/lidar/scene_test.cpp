@@ -5,14 +5,14 @@
 #include <limits>
 #include <memory>
 
-#include "moeller_trumbore.h"
-#include "small_farm.h"
-#include "test_images.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "lidar/internal/mesh_trees.h"
 #include "mesh/alpha_mask.h"
+#include "moeller_trumbore.h"
+#include "small_farm.h"
+#include "test_images.h"
 
 namespace plotscan::lidar {
 namespace {

@@ -5,8 +5,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "small_farm.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -17,6 +15,8 @@
 #include "scan/cloud_reader.h"
 #include "sensor/sensor.h"
 #include "sensor/summary.h"
+#include "small_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan::lidar {
 namespace {
@@ -60,7 +60,7 @@ Footprint footprint_of(const std::filesystem::path& cloud) {
 FlySummary hover(const testing::TemporaryFolder& folder, const std::string& sensor) {
   const auto flight = folder.write("flight.tum", "0 0 0 9.5 0 0 0 1\n0.3 0 0 9.5 0 0 0 1\n");
   return fly(level_farm(), folder.path() / sensor,
-             {.sensor = sensor, .flight = flight, .range_noise_m = 0}, false);
+             {.sensor = sensor, .flight = flight, .range_noise_m = 0});
 }
 
 TEST(Sensors, ScanTheGroundBelow) {
@@ -108,7 +108,7 @@ TEST(Sensors, ARisleyScannerHasNoSpinAndIsReadBack) {
   EXPECT_EQ(flight.placed().sequences() * flight.placed().lasers(), summary.shots);
   EXPECT_THAT(testing::message_of<InputError>([&] {
                 fly(level_farm(), folder.path() / "refused",
-                    {.sensor = "livox_mid40", .spin_hz = 10}, false);
+                    {.sensor = "livox_mid40", .spin_hz = 10});
               }),
               ::testing::HasSubstr("sensor livox_mid40 does not spin; leave out --spin"));
   EXPECT_FALSE(exists(folder.path() / "refused"));
@@ -121,7 +121,7 @@ TEST(Sensors, ScansAreTheSameForAnyNumberOfThreads) {
   for (const std::string name : {"os1_64", "livox_mid40"}) {
     const auto cloud = [&](int threads) {
       const auto scan = folder.path() / (name + std::to_string(threads));
-      fly(farm, scan, {.sensor = name, .flight = flight, .threads = threads}, false);
+      fly(farm, scan, {.sensor = name, .flight = flight, .threads = threads});
       return read_text(scan / "cloud.pcd");
     };
     const std::string one = cloud(1);

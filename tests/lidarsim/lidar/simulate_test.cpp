@@ -6,9 +6,10 @@
 #include <map>
 #include <set>
 
+#include <gtest/gtest.h>
+
 #include "simulated.h"
 #include "small_farm.h"
-#include <gtest/gtest.h>
 
 namespace plotscan::lidar {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "lidar/site.h"
 
-#include "small_farm.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "lidar/flight_plan.h"
 #include "lidar/scene.h"
+#include "small_farm.h"
 
 namespace plotscan::lidar {
 namespace {

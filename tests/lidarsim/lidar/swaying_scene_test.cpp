@@ -4,14 +4,14 @@
 #include <cmath>
 #include <limits>
 
-#include "moeller_trumbore.h"
-#include "small_farm.h"
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "lidar/internal/bent_stem.h"
 #include "lidar/scene.h"
 #include "lidar/sway.h"
+#include "moeller_trumbore.h"
+#include "small_farm.h"
 
 namespace plotscan::lidar {
 namespace {

@@ -5,14 +5,14 @@
 #include <numbers>
 #include <optional>
 
-#include "farmgen/gazebo/world_text.h"
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "farmgen/gazebo/world_text.h"
 #include "gazebo/read_world.h"
 #include "lidar/scene.h"
 #include "lidar/site.h"
+#include "temporary_folder.h"
 
 namespace plotscan::lidar {
 namespace {

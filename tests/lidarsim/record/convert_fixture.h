@@ -10,15 +10,15 @@
 #include <string>
 #include <vector>
 
-#include "lidarsim/lidar/small_farm.h"
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "lidar/fly.h"
+#include "lidarsim/lidar/small_farm.h"
 #include "record/convert.h"
 #include "record/open_source.h"
 #include "scan/cloud_writer.h"
+#include "temporary_folder.h"
 
 namespace plotscan::record {
 
@@ -73,7 +73,7 @@ class Convert : public ::testing::Test {
     }
   }
 
-  Convert() { lidar::fly(testing::small_farm(), scan_, {}, false); }
+  Convert() { lidar::fly(testing::small_farm(), scan_, {}); }
 
   std::string refusal(const std::filesystem::path& in, const std::string& out,
                       const ConvertOptions& options = {}) {

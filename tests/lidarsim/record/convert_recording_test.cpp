@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
-#include "lidarsim/record/convert_fixture.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/manifest.h"
+#include "lidarsim/record/convert_fixture.h"
 
 namespace plotscan::record {
 namespace {
@@ -106,7 +106,8 @@ TEST_F(Convert, APcapTellsTheSpin) {
   for (const double spin_hz : {7.5, 20.0}) {
     lidar::FlyOptions options;
     options.spin_hz = spin_hz;
-    lidar::fly(testing::small_farm(), spun, options, true);
+    options.replace = true;
+    lidar::fly(testing::small_farm(), spun, options);
     convert(spun, pcap, {.replace = true});
     const Source source =
         open_source(pcap, {.flight = FlightOptions{.trajectory = spun / "poses.csv"}});

@@ -3,13 +3,13 @@
 
 #include <fstream>
 
-#include "lidarsim/record/convert_fixture.h"
-#include "lidarsim/scan/foreign_las.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/manifest.h"
 #include "lidar/fly.h"
+#include "lidarsim/record/convert_fixture.h"
+#include "lidarsim/scan/foreign_las.h"
 #include "scan/cloud_system.h"
 #include "scan/cloud_writer.h"
 #include "scan/las_crs.h"
@@ -70,7 +70,7 @@ TEST_F(Convert, AnAnchoredFarmsLasMayBeInUtm) {
   const Anchor anchor{.latitude_deg = 37.2, .longitude_deg = -80.5, .altitude_m = 610};
   farm::Farm farm = testing::small_farm();
   farm.anchor = anchor;
-  lidar::fly(farm, folder_.path() / "anchored", {}, false);
+  lidar::fly(farm, folder_.path() / "anchored", {});
   const fs::path las = folder_.path() / "utm.las";
   convert(folder_.path() / "anchored", las, {.write = {.crs = "utm"}});
   EXPECT_THAT(scan::read_cloud_info(las).crs_wkt, HasSubstr("WGS 84 / UTM zone 17N"));
@@ -198,8 +198,7 @@ TEST_F(Convert, AFormatWithoutUnitsIsNoted) {
 
 TEST_F(Convert, ALasWithATrajectoryKeepsItsTime) {
   const fs::path las = folder_.path() / "cloud.las";
-  lidar::fly(testing::small_farm(), folder_.path() / "may", {.start_utc = "2025-05-04T03:02:01Z"},
-             false);
+  lidar::fly(testing::small_farm(), folder_.path() / "may", {.start_utc = "2025-05-04T03:02:01Z"});
   convert(folder_.path() / "may", las, {});
   FlightOptions flight{.trajectory = scan_ / "poses.csv"};
   const auto start_of = [&](const char* out) {

@@ -9,11 +9,10 @@
 #include <string>
 #include <vector>
 
-#include "lidarsim/lidar/small_farm.h"
-#include "temporary_folder.h"
-
 #include "lidar/fly.h"
+#include "lidarsim/lidar/small_farm.h"
 #include "record/scan_folder.h"
+#include "temporary_folder.h"
 
 namespace plotscan::testing {
 
@@ -55,7 +54,7 @@ struct FlownScan {
     options.spin_jitter = "none";  // measured() goes by a head that turns steadily
     options.start_utc = "2026-06-01T10:59:59.7Z";
     farm.anchor = Anchor{.latitude_deg = 37.2, .longitude_deg = -80.5, .altitude_m = 610};
-    lidar::fly(farm, folder.path() / "scan", options, false);
+    lidar::fly(farm, folder.path() / "scan", options);
     return record::read_flight_record(folder.path() / "scan");
   }
 };

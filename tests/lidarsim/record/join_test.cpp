@@ -5,15 +5,15 @@
 #include <string>
 #include <vector>
 
-#include "lidarsim/lidar/small_farm.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/manifest.h"
 #include "lidar/fly.h"
+#include "lidarsim/lidar/small_farm.h"
 #include "record/join_scans.h"
+#include "temporary_folder.h"
 
 namespace plotscan::record {
 namespace {
@@ -30,7 +30,7 @@ class Join : public ::testing::Test {
   fs::path fly_part(const std::string& name, lidar::FlightPart part, FlyOptions options = {}) {
     options.flight = folder_.write("flight.tum", "100 -3 0 5 0 0 0 1\n100.5 0 0 5 0 0 0 1\n");
     options.part = part;
-    lidar::fly(plotscan::testing::small_farm(), folder_.path() / name, options, false);
+    lidar::fly(plotscan::testing::small_farm(), folder_.path() / name, options);
     return folder_.path() / name;
   }
 
@@ -96,11 +96,11 @@ TEST_F(Join, OnePartIsTheWholeFlight) {
 TEST_F(Join, PartsMayBeEmpty) {
   const auto tum = folder_.write("short.tum", "0 -3 0 5 0 0 0 1\n0.005 0 0 5 0 0 0 1\n");
   const farm::Farm farm = plotscan::testing::small_farm();
-  lidar::fly(farm, folder_.path() / "whole", {.flight = tum}, false);
+  lidar::fly(farm, folder_.path() / "whole", {.flight = tum});
   std::vector<fs::path> parts;
   for (int number = 1; number <= 5; ++number) {
     parts.push_back(folder_.path() / std::to_string(number));
-    lidar::fly(farm, parts.back(), {.flight = tum, .part = {number, 5}}, false);
+    lidar::fly(farm, parts.back(), {.flight = tum, .part = {number, 5}});
   }
   EXPECT_EQ(read_manifest(parts.front())["results"]["shots"], 0);
   join_scans(parts, folder_.path() / "joined", {});

@@ -6,12 +6,12 @@
 #include <set>
 #include <sstream>
 
-#include "lidarsim/record/flown_scan.h"
-#include "lidarsim/record/hovering.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "lidarsim/record/flown_scan.h"
+#include "lidarsim/record/hovering.h"
 #include "record/convert.h"
 #include "record/velodyne/internal/pcap_reader.h"
 #include "record/velodyne/internal/pcap_writer.h"

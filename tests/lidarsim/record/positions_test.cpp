@@ -3,15 +3,15 @@
 
 #include <cmath>
 
-#include "lidarsim/record/ros_flight.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "lidarsim/record/ros_flight.h"
 #include "record/convert.h"
 #include "record/ros/internal/cloud.h"
 #include "record/scan_folder.h"
+#include "temporary_folder.h"
 
 namespace plotscan::record {
 namespace {

@@ -4,18 +4,18 @@
 #include <fstream>
 #include <set>
 
-#include "lidarsim/record/ros_flight.h"
-#include "lidarsim/record/ros_readers.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "core/random.h"
+#include "lidarsim/record/ros_flight.h"
+#include "lidarsim/record/ros_readers.h"
 #include "record/convert.h"
 #include "record/ros/internal/cloud.h"
 #include "record/ros/points.h"
 #include "scan/point_reader.h"
+#include "temporary_folder.h"
 
 namespace plotscan::record {
 namespace {

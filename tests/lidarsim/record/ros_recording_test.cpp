@@ -2,13 +2,13 @@
 #include <cmath>
 #include <map>
 
-#include "lidarsim/record/ros_flight.h"
-#include "lidarsim/record/ros_readers.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "lidarsim/record/ros_flight.h"
+#include "lidarsim/record/ros_readers.h"
 #include "record/ros/points.h"
+#include "temporary_folder.h"
 
 // What RosRecorder writes, as readers of others see it.
 namespace plotscan::record {

@@ -3,13 +3,13 @@
 
 #include <fstream>
 
-#include "lidarsim/lidar/small_farm.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "lidar/fly.h"
+#include "lidarsim/lidar/small_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan::record {
 namespace {
@@ -24,7 +24,7 @@ TEST(ScanFolder, SaysHowThePointsWerePlaced) {
   farm.anchor = Anchor{.latitude_deg = 37.2, .longitude_deg = -80.5, .altitude_m = 610};
   const lidar::FlyOptions options{
       .start_utc = "2025-07-01T08:30:00Z", .spin_hz = 20, .mount_rpy_deg = {10, 80, -20}};
-  const auto summary = lidar::fly(farm, folder.path() / "scan", options, false);
+  const auto summary = lidar::fly(farm, folder.path() / "scan", options);
   const FlightRecord flight = read_flight_record(folder.path() / "scan");
   EXPECT_EQ(flight.sensor.name, "vlp16");
   EXPECT_EQ(flight.spin_hz, 20);

@@ -4,17 +4,17 @@
 #include <cmath>
 #include <fstream>
 
-#include "lidarsim/record/flown_scan.h"
-#include "lidarsim/record/hovering.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "lidarsim/record/flown_scan.h"
+#include "lidarsim/record/hovering.h"
 #include "record/convert.h"
 #include "record/scan_folder.h"
 #include "record/velodyne/encoder.h"
+#include "temporary_folder.h"
 
 namespace plotscan::record {
 namespace {
@@ -143,8 +143,7 @@ TEST(SpinJitter, AScanFolderKnowsItsJitter) {
   const TemporaryFolder folder;
   const auto scan = folder.path() / "scan";
   lidar::fly(testing::small_farm(), scan,
-             {.sensor = jittering_sensor(folder, "1"), .flight = short_way(folder), .seed = 77},
-             false);
+             {.sensor = jittering_sensor(folder, "1"), .flight = short_way(folder), .seed = 77});
   EXPECT_GT(convert(scan, folder.path() / "flight.pcap", {}).points, 10'000U);
   FlightRecord steady = read_flight_record(scan);
   steady.spin_jitter = {};
@@ -160,7 +159,7 @@ TEST(SpinJitter, IsTheSensorsOwnUnlessNoneIsAskedFor) {
   const auto flown = [&](const std::string& name, lidar::FlyOptions options) {
     options.flight = short_way(folder);
     options.range_noise_m = 0;
-    lidar::fly(testing::small_farm(), folder.path() / name, options, false);
+    lidar::fly(testing::small_farm(), folder.path() / name, options);
     return testing::cloud_points(folder.path() / name / "cloud.pcd");
   };
   const auto usual = flown("usual", {});

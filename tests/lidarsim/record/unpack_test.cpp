@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/ros/internal/unpack.h"
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <lz4frame.h>
 #include <zstd.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan::record {
 namespace {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <ostream>
 
-#include "lidarsim/record/flown_scan.h"
-#include "lidarsim/record/hovering.h"
 #include <gtest/gtest.h>
 
+#include "lidarsim/record/flown_scan.h"
+#include "lidarsim/record/hovering.h"
 #include "record/convert.h"
 #include "record/velodyne/internal/pcap_reader.h"
 

@@ -4,11 +4,11 @@
 #include <mutex>
 #include <thread>
 
-#include "lidarsim/record/flown_scan.h"
 #include <gtest/gtest.h>
 #include <pcl/io/vlp_grabber.h>
 
 #include "core/angle.h"
+#include "lidarsim/record/flown_scan.h"
 #include "record/velodyne/internal/pcap_writer.h"
 
 namespace plotscan::record {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cstdint>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
@@ -9,6 +8,7 @@
 
 #include "core/error.h"
 #include "scan/cloud_reader.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 namespace {

@@ -6,7 +6,6 @@
 #include <limits>
 #include <vector>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
@@ -15,6 +14,7 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 namespace {

@@ -5,15 +5,15 @@
 #include <memory>
 #include <vector>
 
-#include "lidarsim/scan/numbered_point.h"
-#include "temporary_folder.h"
 #include <gtest/gtest.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/io/ply_io.h>
 
 #include "core/error.h"
+#include "lidarsim/scan/numbered_point.h"
 #include "scan/cloud_reader.h"
 #include "scan/point_reader.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 namespace {

@@ -11,11 +11,11 @@
 #include <string>
 #include <vector>
 
-#include "temporary_folder.h"
 #include <Eigen/Core>
 #include <gtest/gtest.h>
 
 #include "scan/cloud_reader.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 

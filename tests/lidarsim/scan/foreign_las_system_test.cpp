@@ -4,12 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "foreign_las.h"
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "foreign_las.h"
 #include "scan/cloud_system.h"
 #include "scan/las_crs.h"
 #include "scan/point_reader.h"

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <string>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -9,6 +8,7 @@
 #include "scan/cloud_reader.h"
 #include "scan/las_crs.h"
 #include "scan/las_writer.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 namespace {

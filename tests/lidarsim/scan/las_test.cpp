@@ -3,17 +3,17 @@
 #include <cstring>
 #include <numbers>
 
-#include "lidarsim/scan/numbered_point.h"
-#include "readers/node_reader.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "lidarsim/scan/numbered_point.h"
+#include "readers/node_reader.h"
 #include "scan/las_crs.h"
 #include "scan/las_writer.h"
 #include "scan/point_reader.h"
 #include "scan/scan_angles.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 namespace {

@@ -9,13 +9,13 @@
 #include <tuple>
 #include <vector>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "scan/cloud_reader.h"
 #include "scan/point_reader.h"
+#include "temporary_folder.h"
 #ifdef PLOTSCAN_HAVE_LASZIP
 #include "scan/laz_writer.h"
 #endif

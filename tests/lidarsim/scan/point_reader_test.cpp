@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "scan/cloud_facts.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 namespace {

@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "scan/cloud_reader.h"
 #include "scan/point_reader.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 namespace {

@@ -5,11 +5,11 @@
 #include <limits>
 #include <numbers>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scan {
 namespace {

@@ -3,12 +3,12 @@
 
 #include <string>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <nlohmann/json.hpp>
 
 #include "core/error.h"
 #include "scanpage/read_cloud.h"
+#include "temporary_folder.h"
 
 namespace plotscan::scanpage {
 namespace {

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "sensor/sensor.h"
+#include "temporary_folder.h"
 
 namespace plotscan::sensor {
 namespace {

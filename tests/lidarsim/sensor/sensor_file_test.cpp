@@ -2,13 +2,13 @@
 // A user's own sensor file: what is read, and what is refused in one message.
 #include <string>
 
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/error.h"
 #include "sensor/internal/sensor_files.h"
 #include "sensor/sensor.h"
+#include "temporary_folder.h"
 
 namespace plotscan::sensor {
 namespace {

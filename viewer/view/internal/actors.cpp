@@ -3,7 +3,6 @@
 
 #include <algorithm>
 
-#include "terrain/extent.h"
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkClipPolyData.h>
@@ -24,6 +23,7 @@
 #include "core/extent.h"
 #include "core/statistics.h"
 #include "scan/cloud_reader.h"
+#include "terrain/extent.h"
 #include "view/internal/surfaces.h"
 
 namespace plotscan::view {

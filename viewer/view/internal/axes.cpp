@@ -24,6 +24,26 @@ std::string with_unit(const std::string& title, double origin_m) {
   return title + (origin_m == 0 ? " (m)" : fmt::format(" (m, from {:.0f})", origin_m));
 }
 
+void draw_mark(Page& page, const LegendEntry& entry, const Eigen::Vector2d& left, double mark_px,
+               double text_px) {
+  const Eigen::Vector2d along(mark_px, 0);
+  const Eigen::Vector2d half(0, 0.3 * text_px);
+  if (entry.mark == LegendEntry::Mark::line) {
+    page.line({left, left + along},
+              {.colour = entry.colour, .width_px = entry.width_px, .dash_px = entry.dash_px});
+  } else if (entry.mark == LegendEntry::Mark::area) {
+    page.area({left - half, left + along - half, left + along + half, left + half}, entry.colour);
+  } else {
+    for (const double share : {0.2, 0.5, 0.8}) {
+      const Eigen::Vector2d dot = left + share * along;
+      const double r = 0.13 * text_px;
+      page.area({dot + Eigen::Vector2d(-r, -r), dot + Eigen::Vector2d(r, -r),
+                 dot + Eigen::Vector2d(r, r), dot + Eigen::Vector2d(-r, r)},
+                entry.colour);
+    }
+  }
+}
+
 }  // namespace
 
 void draw_axes(Page& page, const Axes& axes, const std::string& title_x, const std::string& title_y,
@@ -63,30 +83,6 @@ void draw_axes(Page& page, const Axes& axes, const std::string& title_x, const s
       with_unit(title_y, origin_y),
       {.size_px = text_px, .across = Side::middle, .upwards = Side::low, .turn_rad = kPi / 2});
 }
-
-namespace {
-
-void draw_mark(Page& page, const LegendEntry& entry, const Eigen::Vector2d& left, double mark_px,
-               double text_px) {
-  const Eigen::Vector2d along(mark_px, 0);
-  const Eigen::Vector2d half(0, 0.3 * text_px);
-  if (entry.mark == LegendEntry::Mark::line) {
-    page.line({left, left + along},
-              {.colour = entry.colour, .width_px = entry.width_px, .dash_px = entry.dash_px});
-  } else if (entry.mark == LegendEntry::Mark::area) {
-    page.area({left - half, left + along - half, left + along + half, left + half}, entry.colour);
-  } else {
-    for (const double share : {0.2, 0.5, 0.8}) {
-      const Eigen::Vector2d dot = left + share * along;
-      const double r = 0.13 * text_px;
-      page.area({dot + Eigen::Vector2d(-r, -r), dot + Eigen::Vector2d(r, -r),
-                 dot + Eigen::Vector2d(r, r), dot + Eigen::Vector2d(-r, r)},
-                entry.colour);
-    }
-  }
-}
-
-}  // namespace
 
 double draw_legend(Page* page, const Eigen::Vector2d& top_left, double width_px,
                    const std::vector<LegendEntry>& entries, double text_px) {

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "cloud/convex_hull.h"
-
 #include "core/angle.h"
 
 namespace plotscan::methods::dhami2020 {

@@ -4,11 +4,11 @@
 #include <span>
 #include <vector>
 
-#include "methods/dhami2020/internal/lattice.h"
 #include <Eigen/Core>
 
 #include "core/plot_box.h"
 #include "estimate/estimate.h"
+#include "methods/dhami2020/internal/lattice.h"
 
 namespace plotscan::methods::dhami2020 {
 

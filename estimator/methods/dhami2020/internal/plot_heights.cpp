@@ -5,11 +5,10 @@
 #include <optional>
 
 #include "cloud/points_in_boxes.h"
-#include "methods/dhami2020/ground_plane.h"
-
 #include "core/each_index.h"
 #include "core/list_of.h"
 #include "core/statistics.h"
+#include "methods/dhami2020/ground_plane.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {

@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "methods/dhami2020/dhami2020.h"
 #include <Eigen/Core>
 
 #include "estimate/estimate.h"
+#include "methods/dhami2020/dhami2020.h"
 
 namespace plotscan::methods::dhami2020 {
 

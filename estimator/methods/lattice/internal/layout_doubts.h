@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: what else the plots of a layout may be.
+// What else the plots of a layout may be.
 
 #include <string>
 #include <vector>

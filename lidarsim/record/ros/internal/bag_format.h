@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "record/ros/file.h"
+
 // What the writer and the reader of bags share (wiki.ros.org/Bags/Format/2.0).
 namespace plotscan::record::ros {
 
@@ -17,5 +19,8 @@ enum class BagOp : std::uint8_t {
   chunk_info = 6,
   connection = 7
 };
+
+// read_messages of a bag.
+void read_bag(const std::filesystem::path& file, const MessageSink& sink);
 
 }  // namespace plotscan::record::ros

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <string_view>
 
+#include "record/ros/file.h"
+
 // What the writer and the reader of MCAP share (mcap.dev/spec).
 namespace plotscan::record::ros {
 
@@ -28,5 +30,8 @@ enum class McapOp : std::uint8_t {
 
 // CRC-32 as in zlib; `before` is the CRC of the bytes that come before these.
 std::uint32_t mcap_crc(std::string_view bytes, std::uint32_t before = 0);
+
+// read_messages of an MCAP file.
+void read_mcap(const std::filesystem::path& file, const MessageSink& sink);
 
 }  // namespace plotscan::record::ros

@@ -3,13 +3,13 @@
 
 #include <algorithm>
 
-#include "estimator/synthetic_farm.h"
-#include "temporary_folder.h"
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/error.h"
+#include "estimator/synthetic_farm.h"
+#include "temporary_folder.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {

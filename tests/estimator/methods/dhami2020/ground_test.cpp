@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "methods/dhami2020/ground_plane.h"
-#include "methods/dhami2020/internal/ground_level.h"
 #include <gtest/gtest.h>
 
 #include "core/random.h"
+#include "methods/dhami2020/ground_plane.h"
+#include "methods/dhami2020/internal/ground_level.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {

@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
-#include "methods/dhami2020/internal/plot_grid.h"
 #include <gtest/gtest.h>
 
 #include "core/angle.h"
 #include "core/random.h"
+#include "methods/dhami2020/internal/plot_grid.h"
 
 namespace plotscan::methods::dhami2020 {
 namespace {

@@ -9,6 +9,7 @@
 #include "core/number_text.h"
 #include "farmbench/table.h"
 
+// Figures as tables show them.
 namespace plotscan::farmbench {
 
 // "1 farm", "3 farms".

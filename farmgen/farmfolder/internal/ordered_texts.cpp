@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/ordered_texts.h"
+#include "farmfolder/internal/ordered_texts.h"
 
 #include <algorithm>
 
@@ -7,7 +7,7 @@
 #include <tbb/parallel_pipeline.h>
 #include <tbb/task_arena.h>
 
-namespace plotscan {
+namespace plotscan::farmfolder {
 namespace {
 
 struct NumberedText {
@@ -40,4 +40,4 @@ void make_in_order(std::size_t count, int threads,
   });
 }
 
-}  // namespace plotscan
+}  // namespace plotscan::farmfolder

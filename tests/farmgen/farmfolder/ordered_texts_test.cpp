@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "core/ordered_texts.h"
+#include "farmfolder/internal/ordered_texts.h"
 
 #include <chrono>
 #include <stdexcept>
@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-namespace plotscan {
+namespace plotscan::farmfolder {
 namespace {
 
 // Every third text takes longer than the next ones.
@@ -41,4 +41,4 @@ TEST(MakeInOrder, ThrowsWhatIsThrown) {
 }
 
 }  // namespace
-}  // namespace plotscan
+}  // namespace plotscan::farmfolder
