@@ -13,21 +13,27 @@
 namespace plotscan::plots {
 namespace {
 
-// Of the usual side's contrast, in the mean of a row or column.
+// Of the usual side's contrast.
 constexpr double kLeastOfSide = 0.25;
 
-// Marks the places of those rows in which one of the sides across r shows no edge.
-void mark_rows(const Lattice& lattice, std::vector<bool>& marked) {
+// Marks the places of those rows, or columns, of which most plots show no edge at one of the sides
+// across r.
+void mark_lines(const Lattice& lattice, int Place::*line, std::vector<bool>& marked) {
+  constexpr std::size_t kLeastLine = 3;  // plots, where canopy may run on along the line
   const double usual = usual_sides(lattice, contrast_of).r;
   if (usual < kLeastUsual) return;
-  std::map<int, std::array<std::vector<double>, 2>> rows;
+  std::map<int, std::array<std::vector<double>, 2>> lines;
   for (const Place& place : lattice.places) {
     const std::array<double, 2> contrasts = r_contrasts_of(lattice, place);
-    for (std::size_t side = 0; side < 2; ++side) rows[place.row][side].push_back(contrasts[side]);
+    for (std::size_t side = 0; side < 2; ++side)
+      lines[place.*line][side].push_back(contrasts[side]);
   }
+  const bool along = line == &Place::column;
   for (std::size_t i = 0; i < marked.size(); ++i) {
-    const auto& sides = rows[lattice.places[i].row];
-    if (std::min(mean(sides[0]), mean(sides[1])) < kLeastOfSide * usual) marked[i] = true;
+    const auto& [before, after] = lines[lattice.places[i].*line];
+    if (along && before.size() < kLeastLine) continue;
+    const double least = std::min(quantile(before, 0.5), quantile(after, 0.5));
+    if (least < kLeastOfSide * usual) marked[i] = true;
   }
 }
 
@@ -48,8 +54,12 @@ void mark_edgeless(const Lattice& lattice, std::vector<bool>& marked) {
 
 std::vector<bool> without_edge(const Lattice& lattice) {
   std::vector<bool> marked(lattice.places.size(), false);
-  mark_rows(lattice, marked);
-  if (lattice.aligned) mark_rows(lattice.turned(), marked);
+  mark_lines(lattice, &Place::row, marked);
+  if (!lattice.aligned) return marked;
+  const Lattice turned = lattice.turned();
+  mark_lines(turned, &Place::row, marked);
+  mark_lines(turned, &Place::column, marked);
+  mark_lines(lattice, &Place::column, marked);
   return marked;
 }
 

@@ -10,9 +10,9 @@
 
 namespace plotscan::plots {
 
-// By place: whether the canopy of its row or column does not end at one side of the boxes, where
-// that of others does. Such plots are narrower or wider than the others, as guard plots are, or
-// another crop touches them.
+// By place: whether most plots of its row or column show no edge at one of their sides, where
+// others do. Such plots are narrower or wider than the others, as guard plots are, pieces of a
+// strip that runs on, or another crop touches them.
 std::vector<bool> without_edge(const Lattice& lattice);
 
 // How many places show no edge at one of their sides, where others do: if they are many, the

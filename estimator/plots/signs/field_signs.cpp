@@ -235,7 +235,9 @@ FieldSigns signs_of(const Lattice& lattice, const FieldCanopy& field, double noi
 std::string no_plots_because(const FieldSigns& signs) {
   if (signs.surface_share > kMostSurface || signs.roughness < kLeastRoughness ||
       signs.patch_scatter < kLeastPatchScatter)
-    return "what stands here has smooth surfaces, as walls, roofs or cars do, not canopy";
+    return "what stands here has smooth surfaces, as walls, roofs or cars do; a crop from photos "
+           "has "
+           "them too, and is measured where --boxes say that plots are";
   if (are_rows(signs) || signs.least_gap_m < kLeastGapSeen_m || signs.gap_cover > kMostGapCover)
     return "rows of a crop or a vineyard lie here, not plots";
   const bool few = signs.plots < kFewPlots;

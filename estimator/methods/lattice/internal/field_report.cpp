@@ -119,7 +119,7 @@ std::vector<std::string> lines_of(const plots::PlotField& field) {
     lines.push_back(
         fmt::format("sown in    {} rows a plot, {:.2f} m apart", sown->rows, sown->spacing_m));
   if (const auto without = places_without_plot(field); !without.empty())
-    lines.push_back(fmt::format("no plot    at {} of {} places: {}", without.size(),
+    lines.push_back(fmt::format("none found at {} of {} places: {}", without.size(),
                                 layout.rows() * layout.columns(), listed(without)));
   if (field.others_m2 > 0)
     lines.push_back(fmt::format("left out   {:.0f} m2 of canopy without gaps beside the plots",

@@ -13,6 +13,7 @@ using PartCell = Eigen::Array<Eigen::Index, 2, 1>;
 
 constexpr float kPartCell_m = 0.25F;
 constexpr double kLeastCovered = 0.2;  // of a cell's returns: stray ones are less
+constexpr float kAroundPart_m = 3;     // of a part, where ground shows
 constexpr double kLeastPart_m2 = 4;    // of covered cells: four small plots
 
 // The cells of a rectangle about a cell, as far as the grid has them.
@@ -88,14 +89,22 @@ std::vector<Eigen::Vector3f> CanopyParts::without_others(std::span<const Eigen::
                                                          std::size_t part) const {
   const int own = static_cast<int>(part + 1);
   PartGrid taken = PartGrid::Zero(part_.rows(), part_.cols());
-  for (Eigen::Index y = 0; y < part_.cols(); ++y)
-    for (Eigen::Index x = 0; x < part_.rows(); ++x)
-      if (part_(x, y) != 0 && part_(x, y) != own)
+  Eigen::AlignedBox2f around;
+  for (Eigen::Index y = 0; y < part_.cols(); ++y) {
+    for (Eigen::Index x = 0; x < part_.rows(); ++x) {
+      if (part_(x, y) == own) {
+        around.extend(extent_.min() + kPartCell_m * Eigen::Vector2f(x, y));
+      } else if (part_(x, y) != 0) {
         for_each_near(taken, {x, y}, 1,
                       [&](const PartCell& near) { taken(near.x(), near.y()) = 1; });
+      }
+    }
+  }
+  around.min().array() -= kAroundPart_m;
+  around.max().array() += kAroundPart_m + kPartCell_m;
   std::vector<Eigen::Vector3f> left;
   std::ranges::copy_if(points, std::back_inserter(left), [&](const Eigen::Vector3f& point) {
-    return point.allFinite() && taken(cell_of(point)) == 0;
+    return point.allFinite() && around.contains(point.head<2>()) && taken(cell_of(point)) == 0;
   });
   return left;
 }

@@ -22,7 +22,7 @@ class CanopyParts {
 
   // How many there are, but for small ones, which may be weeds.
   std::size_t size() const { return size_; }
-  // The finite points of the field that do not lie in, or right beside, any other part.
+  // The finite points of the field in and about a part, but for those in, or right beside, others.
   std::vector<Eigen::Vector3f> without_others(std::span<const Eigen::Vector3f> points,
                                               std::size_t part) const;
 

@@ -29,9 +29,8 @@ using Trials = std::vector<SeenTrial>;
 constexpr std::size_t kMostTrials = 6;
 constexpr int kMostRounds = 3;
 constexpr std::size_t kMostStarts = 3;
-constexpr std::array kPaths_m = {3.0, 2.0, 1.5};  // between trials
-constexpr double kAlike = 0.15;                   // sizes that differ by less
-constexpr double kEnoughPerM2 = 400;              // points, to tell trials apart
+constexpr double kAlike = 0.15;       // sizes that differ by less
+constexpr double kEnoughPerM2 = 400;  // points, to tell trials apart
 
 // About `per_m2` points a square metre. Which ones depends on each point alone, not on their order.
 std::vector<Eigen::Vector3f> thinned(std::span<const Eigen::Vector3f> points, double per_m2) {
@@ -93,10 +92,20 @@ void propose(const ScannedField& field, Look look, Trials& trials) {
   }
 }
 
+// Whether a look shows a trial. A single line of plots between which gaps are nearly as full may be
+// a hedge.
+bool is_trial(const Look& look) {
+  constexpr double kMostBetween = 0.8;  // cover of gaps, of the plots'
+  if (look.field.plots.size() < kLeastOfTrial) return false;
+  const TrialLayout& layout = look.field.fit->layout;
+  const bool is_line = layout.rows() == 1 || layout.columns() == 1;
+  return !is_line || look.field.signs->gap_cover < kMostBetween;
+}
+
 // Looks at a trial with the others taken away. Whether it is a field of plots then.
 bool is_confirmed(const ScannedField& field, const Trials& trials, SeenTrial& trial) {
   trial.look = look_at(field, trials, {&trial});
-  if (trial.look.field.plots.size() < kLeastOfTrial) return false;
+  if (!is_trial(trial.look)) return false;
   trial.area = area_of(trial.look.field.fit->layout);
   return true;
 }
@@ -142,21 +151,18 @@ bool are_alike(const TrialLayout& a, const TrialLayout& b) {
          std::abs(turned) < kSameHeading_rad;
 }
 
-// Whether a plot begins where one of the others ends: between trials ground is seen.
-bool follows(PlotBox plot, const PlotField& others) {
-  constexpr double kSeen_m = 0.3;  // less is closed by leaves
-  plot.length_m += 2 * kSeen_m;
-  plot.width_m += 2 * kSeen_m;
-  return std::ranges::any_of(others.plots, [&](const FoundPlot& beside) {
-    return intersection_area(plot, beside.box) > 0;
-  });
-}
-
-// Whether most plots of one follow the other's.
+// Whether most plots of one begin where a plot of the other ends: between trials ground is seen.
 bool follow(const PlotField& one, const PlotField& other) {
-  const auto count = std::ranges::count_if(
-      one.plots, [&](const FoundPlot& plot) { return follows(plot.box, other); });
-  return 2 * count > std::ssize(one.plots);
+  constexpr double kSeen_m = 0.3;  // less is closed by leaves
+  const auto follows_another = [&](const FoundPlot& plot) {
+    PlotBox around = plot.box;
+    around.length_m += 2 * kSeen_m;
+    around.width_m += 2 * kSeen_m;
+    return std::ranges::any_of(other.plots, [&](const FoundPlot& beside) {
+      return intersection_area(around, beside.box) > 0;
+    });
+  };
+  return 2 * std::ranges::count_if(one.plots, follows_another) > std::ssize(one.plots);
 }
 
 // Two trials of like plots as one, if as many plots are found so.
@@ -198,38 +204,6 @@ Trials as_one(const ScannedField& field, Trials trials) {
       k = i;
     }
   }
-  return trials;
-}
-
-// Moves the ground of those plots of a trial that the pieces follow to the pieces.
-void give_followed(SeenTrial& over, SeenTrial& pieces) {
-  const TrialLayout& layout = over.look.field.fit->layout;
-  std::vector<PlotBox> left;
-  for (std::size_t i = 0; i < over.area.size(); ++i)
-    (follows(layout.box(layout.places[i]), pieces.look.field) ? pieces.area : left)
-        .push_back(over.area[i]);
-  over.area = std::move(left);
-}
-
-// Where the lattice of a trial goes on over another crop, its plots hold pieces of that crop's, and
-// a second trial has what they leave. The trials with both pieces as one crop, if as many plots
-// show there; else as they are.
-Trials with_whole_crop(const ScannedField& field, const Trials& trials, std::size_t over,
-                       std::size_t pieces) {
-  if (!follow(trials[pieces].look.field, trials[over].look.field)) return trials;
-  Trials whole = trials;
-  give_followed(whole[over], whole[pieces]);
-  const std::size_t least = trials[pieces].look.field.plots.size();
-  if (!is_confirmed(field, whole, whole[pieces]) || whole[pieces].look.field.plots.size() < least ||
-      !is_confirmed(field, whole, whole[over]))
-    return trials;
-  return whole;
-}
-
-Trials with_whole_crops(const ScannedField& field, Trials trials) {
-  for (std::size_t over = 0; over < trials.size(); ++over)
-    for (std::size_t pieces = 0; pieces < trials.size(); ++pieces)
-      if (pieces != over) trials = with_whole_crop(field, trials, over, pieces);
   return trials;
 }
 
@@ -281,22 +255,57 @@ bool are_clear(const Trials& trials) {
          });
 }
 
-// The trials of parts of the canopy that lie so far apart, each looked at by itself; none where
-// there are not two, or so many that they are plots or shrubs.
-Trials trials_apart(const ScannedField& field, double gap_m) {
-  constexpr std::size_t kMostParts = 12;
-  const CanopyParts parts(field.points, field.blocks.low_m(), gap_m);
-  if (parts.size() < 2 || parts.size() > kMostParts) return {};
+// The trials of parts of the canopy, each looked at by itself.
+Trials trials_of(const ScannedField& field, const CanopyParts& parts) {
   Trials trials;
   for (std::size_t part = 0; part < parts.size(); ++part) {
     const std::vector<Eigen::Vector3f> own = parts.without_others(field.points, part);
     const FieldBlocks blocks = blocks_of(field, own);
     Look look = look_twice(with_points(field, own, blocks));
-    if (look.field.plots.size() < kLeastOfTrial) continue;
+    if (!is_trial(look)) continue;
     std::vector<PlotBox> area = area_of(look.field.fit->layout);
     trials.push_back({.area = std::move(area), .look = std::move(look)});
   }
   return trials;
+}
+
+// The canopy in parts that lie apart, by wider paths first; not where they are so many that they
+// are plots or shrubs.
+std::vector<CanopyParts> parts_of(const ScannedField& field) {
+  constexpr std::array kPaths_m = {3.0, 2.0, 1.5};
+  constexpr std::size_t kMostParts = 12;
+  std::vector<CanopyParts> all;
+  std::size_t last = 1;
+  for (const double path_m : kPaths_m) {
+    CanopyParts parts(field.points, field.blocks.low_m(), path_m);
+    if (parts.size() > kMostParts) break;
+    if (parts.size() <= last) continue;
+    last = parts.size();
+    all.push_back(std::move(parts));
+  }
+  return all;
+}
+
+// Keeps the trials that explain a field better: two or more.
+void keep_better(Trials trials, Trials& best) {
+  if (trials.size() > 1 && expected_plots(trials) > expected_plots(best)) best = std::move(trials);
+}
+
+// The best trials of those that parts of the canopy show.
+Trials best_of_parts(const ScannedField& field) {
+  Trials best;
+  for (const CanopyParts& parts : parts_of(field))
+    if (!are_clear(best)) keep_better(as_one(field, trials_of(field, parts)), best);
+  return best;
+}
+
+// The best trials of those of which a look is the first.
+Trials best_of_starts(const ScannedField& field, const std::vector<Look>& starts) {
+  Trials best;
+  for (const Look& start : starts)
+    if (!are_clear(best) && !shows_one_of(best, start))
+      keep_better(as_one(field, told_apart(field, start)), best);
+  return best;
 }
 
 }  // namespace
@@ -311,16 +320,10 @@ std::vector<SeenTrial> trials_beside(const ScannedField& field, const Looks& loo
   const std::vector<Eigen::Vector3f> points = thinned(field.points, kEnoughPerM2);
   const FieldBlocks blocks = blocks_of(field, points);
   const ScannedField thin = with_points(field, points, blocks);
-  Trials best;
-  const auto consider = [&](Trials trials) {
-    trials = with_whole_crops(thin, as_one(thin, std::move(trials)));
-    if (expected_plots(trials) > expected_plots(best)) best = std::move(trials);
-  };
-  for (const Look& start : starts_of(looks))
-    if (!are_clear(best) && !shows_one_of(best, start)) consider(told_apart(thin, start));
-  for (const double gap_m : kPaths_m)
-    if (!are_clear(best)) consider(trials_apart(thin, gap_m));
-  if (best.size() < 2) return {};
+  const std::vector<Look> starts = starts_of(looks);
+  if (starts.empty()) return {};
+  Trials best = best_of_parts(thin);
+  if (!are_clear(best)) keep_better(best_of_starts(thin, starts), best);
   return looked_at_closely(field, std::move(best));
 }
 

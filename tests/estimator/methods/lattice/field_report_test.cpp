@@ -42,7 +42,7 @@ TEST(FieldReport, TellsPlacesWithoutAPlot) {
   plots::PlotField field = field_without({{3, 1}, {1, 2}});
   EXPECT_EQ(json_of(field)["places_without_plot"], nlohmann::json::parse("[[1, 2], [3, 1]]"));
   EXPECT_THAT(lines_of(field),
-              Contains("no plot    at 2 of 12 places: row 1 column 2, row 3 column 1"));
+              Contains("none found at 2 of 12 places: row 1 column 2, row 3 column 1"));
   field.fit->columns_aligned = false;
   EXPECT_FALSE(json_of(field).contains("places_without_plot"));
   field.fit->columns_aligned = true;

@@ -53,6 +53,19 @@ TEST(WithoutEdge, AreGuardPlotsThatAreNarrower) {
   EXPECT_EQ(marked_columns(trial, without_edge(lattice_of(trial, raster))), std::vector{1});
 }
 
+// The first column's plots are those of a strip that runs on through the gaps between them.
+TEST(WithoutEdge, ArePiecesOfAGuardStrip) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const PlotBox first = trial.box(trial.places.front()), last = trial.box(trial.places.back());
+  const CanopyRaster raster = canopy_with(trial, [&](double x, double y) {
+    const bool in_strip = std::abs(y - first.center.y()) < trial.width_m / 2 &&
+                          x > first.center.x() - trial.length_m / 2 &&
+                          x < last.center.x() + trial.length_m / 2;
+    return in_strip || in_plot(trial, x, y) ? 0.9 : 0.05;
+  });
+  EXPECT_EQ(marked_columns(trial, without_edge(lattice_of(trial, raster))), std::vector{1});
+}
+
 // Another crop stands from the last column's plots on.
 TEST(WithoutEdge, ArePlotsThatAnotherCropTouches) {
   const TrialLayout trial = known_trial({0, 0, 0});
@@ -86,6 +99,16 @@ TEST(WithoutEdge, IsNoPlotWhereNoSideShowsOne) {
   const TrialLayout trial = known_trial({0, 0, 0});
   const CanopyRaster raster = sown_canopy(trial, 2, 0.05, 0.1);
   EXPECT_THAT(without_edge(lattice_of(trial, raster)), Each(false));
+}
+
+// The last row's plots stand in a closed crop.
+TEST(CountEdgeless, CountsPlotsInACropWithoutGaps) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  EXPECT_EQ(count_edgeless(lattice_of(trial, canopy_of(trial))), 0u);
+  const double from_m = trial.box(trial.places.back()).center.x() - trial.length_m / 2;
+  const CanopyRaster raster = canopy_with(
+      trial, [&](double x, double y) { return x > from_m || in_plot(trial, x, y) ? 0.9 : 0.05; });
+  EXPECT_EQ(count_edgeless(lattice_of(trial, raster)), 5u);
 }
 
 }  // namespace

@@ -131,6 +131,22 @@ TEST(FindTrials, TellsThreeCropsSideBySideApart) {
   expect_those(canola, trials[2]);
 }
 
+// A hedge 4 m beside the trial, as tall as the crop, with places every 2.5 m that are a little
+// thinner: no second trial of one column.
+TEST(FindTrials, TakesNoHedgeWithThinPlacesForPlots) {
+  const std::vector<PlotBox> plots =
+      grid(3, 6, {.width_m = 1.5, .length_m = 4}, {0.8, 0.4}, {-3, 0});
+  std::vector<PlotBox> boxes = plots;
+  boxes.push_back(grid(1, 1, {.width_m = 15, .length_m = 1.6}, {}, {9, 0}).front());
+  const auto sown = [](const PlotBox& box, const Eigen::Vector2d& from_center) {
+    const bool thin = box.width_m > 10 && std::abs(std::remainder(from_center.y(), 2.5)) < 0.25;
+    return !thin || std::abs(std::remainder(from_center.x(), 0.2)) < 0.07;
+  };
+  const std::vector<PlotField> trials = find_trials(cloud_over(boxes, sown, 16, 14), 0.02, {}, 2);
+  ASSERT_EQ(trials.size(), 1u);
+  expect_those(plots, trials.front());
+}
+
 TEST(FindTrials, GivesTheSameForAnyOrderOfThePoints) {
   std::vector<Eigen::Vector3f> points = cloud_over(both());
   const std::vector<PlotField> before = find_trials(points, 0.02, {}, 2);
