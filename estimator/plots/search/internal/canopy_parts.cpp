@@ -2,6 +2,7 @@
 #include "plots/search/internal/canopy_parts.h"
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -12,9 +13,10 @@ using PartGrid = Eigen::ArrayXXi;
 using PartCell = Eigen::Array<Eigen::Index, 2, 1>;
 
 constexpr float kPartCell_m = 0.25F;
-constexpr double kLeastCovered = 0.2;  // of a cell's returns: stray ones are less
-constexpr float kAroundPart_m = 3;     // of a part, where ground shows
-constexpr double kLeastPart_m2 = 4;    // of covered cells: four small plots
+constexpr float kMostPartCells = 1.6e7F;  // wider cells on fields of over a square kilometre
+constexpr double kLeastCovered = 0.2;     // of a cell's returns: stray ones are less
+constexpr float kAroundPart_m = 3;        // of a part, where ground shows
+constexpr double kLeastPart_m2 = 4;       // of covered cells: four small plots
 
 // The cells of a rectangle about a cell, as far as the grid has them.
 template <typename Use>
@@ -50,7 +52,8 @@ CanopyParts::CanopyParts(std::span<const Eigen::Vector3f> points, double low_m, 
   for (const Eigen::Vector3f& point : points)
     if (point.allFinite()) extent_.extend(point.head<2>());
   if (extent_.isEmpty()) return;
-  const PartCell count = (extent_.sizes() / kPartCell_m).array().floor().cast<Eigen::Index>() + 1;
+  cell_m_ = std::max(kPartCell_m, std::sqrt(extent_.volume() / kMostPartCells));
+  const PartCell count = (extent_.sizes() / cell_m_).array().floor().cast<Eigen::Index>() + 1;
   part_ = PartGrid::Zero(count.x(), count.y());
   PartGrid returns = part_, high = part_;
   for (const Eigen::Vector3f& point : points) {
@@ -63,13 +66,13 @@ CanopyParts::CanopyParts(std::span<const Eigen::Vector3f> points, double low_m, 
 
 Eigen::Index CanopyParts::cell_of(const Eigen::Vector3f& point) const {
   const PartCell cell =
-      ((point.head<2>() - extent_.min()) / kPartCell_m).array().floor().cast<Eigen::Index>();
+      ((point.head<2>() - extent_.min()) / cell_m_).array().floor().cast<Eigen::Index>();
   return cell.x() + cell.y() * part_.rows();
 }
 
 void CanopyParts::number_parts(const PartGrid& returns, const PartGrid& high, double gap_m) {
   constexpr int kCovered = -1;
-  const auto reach = static_cast<Eigen::Index>(gap_m / kPartCell_m);
+  const auto reach = static_cast<Eigen::Index>(gap_m / cell_m_);
   part_ = (high.cast<double>() > kLeastCovered * returns.cast<double>())
               .select(PartGrid::Constant(part_.rows(), part_.cols(), kCovered), 0);
   for (Eigen::Index y = 0; y < part_.cols(); ++y) {
@@ -77,7 +80,7 @@ void CanopyParts::number_parts(const PartGrid& returns, const PartGrid& high, do
       if (part_(x, y) != kCovered) continue;
       const std::vector<PartCell> cells =
           fill(part_, {x, y}, kCovered, static_cast<int>(size_ + 1), reach);
-      if (static_cast<double>(cells.size()) * kPartCell_m * kPartCell_m >= kLeastPart_m2)
+      if (static_cast<double>(cells.size()) * cell_m_ * cell_m_ >= kLeastPart_m2)
         ++size_;
       else
         for (const PartCell& cell : cells) part_(cell.x(), cell.y()) = 0;
@@ -93,7 +96,7 @@ std::vector<Eigen::Vector3f> CanopyParts::without_others(std::span<const Eigen::
   for (Eigen::Index y = 0; y < part_.cols(); ++y) {
     for (Eigen::Index x = 0; x < part_.rows(); ++x) {
       if (part_(x, y) == own) {
-        around.extend(extent_.min() + kPartCell_m * Eigen::Vector2f(x, y));
+        around.extend(extent_.min() + cell_m_ * Eigen::Vector2f(x, y));
       } else if (part_(x, y) != 0) {
         for_each_near(taken, {x, y}, 1,
                       [&](const PartCell& near) { taken(near.x(), near.y()) = 1; });
@@ -101,7 +104,7 @@ std::vector<Eigen::Vector3f> CanopyParts::without_others(std::span<const Eigen::
     }
   }
   around.min().array() -= kAroundPart_m;
-  around.max().array() += kAroundPart_m + kPartCell_m;
+  around.max().array() += kAroundPart_m + cell_m_;
   std::vector<Eigen::Vector3f> left;
   std::ranges::copy_if(points, std::back_inserter(left), [&](const Eigen::Vector3f& point) {
     return point.allFinite() && around.contains(point.head<2>()) && taken(cell_of(point)) == 0;

@@ -13,7 +13,7 @@
 namespace plotscan::plots {
 
 // What stands on a field, in parts with wide gaps between them, as paths between trials are. On
-// cells of 0.25 m.
+// cells of 0.25 m, wider on fields of over a square kilometre.
 class CanopyParts {
  public:
   // Points: x, y, height above the ground, metres. Canopy is what is higher than low_m; what lies
@@ -31,6 +31,7 @@ class CanopyParts {
   void number_parts(const Eigen::ArrayXXi& returns, const Eigen::ArrayXXi& high, double gap_m);
 
   Eigen::AlignedBox2f extent_;
+  float cell_m_ = 0;
   Eigen::ArrayXXi part_;  // by cell, from 1; 0 of none
   std::size_t size_ = 0;
 };
