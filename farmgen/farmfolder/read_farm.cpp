@@ -69,15 +69,21 @@ FarmRecord read_record(const fs::path& folder) {
 std::vector<farm::PlantModel> read_plant_models(const fs::path& folder, const FarmRecord& record) {
   const fs::path manifest = folder / "manifest.json";
   const std::set<std::string> with_light(record.light_models.begin(), record.light_models.end());
-  std::vector<farm::PlantModel> models;
+  std::vector<mesh::MeshFile> files;
   for (const std::string& name : record.models) {
     // A name that leads out of models/ is refused.
     path_inside(folder / "models", name, manifest);
-    mesh::Mesh mesh = mesh::import_mesh(path_inside(folder, model_mesh_path(name), manifest));
+    files.push_back({.path = path_inside(folder, model_mesh_path(name), manifest)});
+    if (with_light.contains(name))
+      files.push_back({.path = path_inside(folder, light_mesh_path(name), manifest)});
+  }
+  mesh::MeshReader meshes(std::move(files));
+  std::vector<farm::PlantModel> models;
+  for (const std::string& name : record.models) {
+    mesh::Mesh mesh = meshes.next().mesh;
     const double height_m = mesh::mesh_height(mesh);
     models.push_back({name, std::move(mesh), height_m});
-    if (!with_light.contains(name)) continue;
-    models.back().light = mesh::import_mesh(path_inside(folder, light_mesh_path(name), manifest));
+    if (with_light.contains(name)) models.back().light = meshes.next().mesh;
   }
   return models;
 }

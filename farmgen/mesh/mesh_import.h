@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <cstddef>
+#include <deque>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "mesh/mesh.h"
@@ -39,5 +42,33 @@ struct MeshImportOptions {
 // with an alpha is broken or too large.
 Mesh import_mesh(const std::filesystem::path& path, const MeshImportOptions& options = {},
                  std::vector<std::string>* notes = nullptr);
+
+struct MeshFile {
+  std::filesystem::path path;
+  MeshImportOptions options = {};
+};
+
+struct ImportedMesh {
+  Mesh mesh;
+  std::vector<std::string> notes;
+};
+
+// Reads files one after the other as import_mesh reads each. Small ones are read together ahead of
+// their turns: a process of its own for each file takes longer than the file.
+class MeshReader {
+ public:
+  explicit MeshReader(std::vector<MeshFile> files) : files_(std::move(files)) {}
+
+  // The next file's. Throws InputError as import_mesh does for it.
+  ImportedMesh next();
+
+ private:
+  void read_ahead();
+
+  std::vector<MeshFile> files_;
+  std::size_t taken_ = 0;          // of `files_`
+  std::size_t tried_ = 0;          // of `files_`, those that were read ahead or could not be
+  std::deque<ImportedMesh> read_;  // from `taken_` on
+};
 
 }  // namespace plotscan::mesh

@@ -15,7 +15,7 @@ void Writing::SetUpTestSuite() {
   input_ = fs::temp_directory_path() / ("plotscan-writers-" + std::to_string(getpid()));
   fs::create_directories(input_);
   for (const std::string& command : {"farmgen generate " + kFourPlots + " -o farm",
-                                     std::string("lidarsim fly farm -o scan --speed 4"),
+                                     std::string("lidarsim fly farm -o scan --speed 6"),
                                      std::string("estimator run scan -o estimate")}) {
     ASSERT_EQ(run(command, input_).exit_code, 0) << command;
   }

@@ -26,7 +26,7 @@ inline auto writers() {
       Writer{"Plant", "farmgen plant maize -q -o", "out.obj"},
       Writer{"ExportClassic", "farmgen export $IN/farm --gazebo classic --drone -q -o", "out"},
       Writer{"ExportSim", "farmgen export $IN/farm --gazebo sim -q -o", "out"},
-      Writer{"Fly", "lidarsim fly $IN/farm --speed 4 --format las,pcap,bag,mcap -q -o", "out"},
+      Writer{"Fly", "lidarsim fly $IN/farm --speed 6 --format las,pcap,bag,mcap -q -o", "out"},
       Writer{"ConvertLas", "lidarsim convert $IN/scan -q", "out.las"},
       Writer{"ConvertBag", "lidarsim convert $IN/scan -q", "out.bag"},
       Writer{"View", "lidarsim view $IN/scan -q -o", "out.html"},

@@ -63,15 +63,28 @@ std::vector<mesh::Mesh*> meshes_of(farm::PlantModel& model) {
   return meshes;
 }
 
-farm::PlantModel make_model(const ModelDescription& description,
+// In the order in which make_model takes them.
+std::vector<mesh::MeshFile> files_of(const std::vector<ModelDescription>& models) {
+  std::vector<mesh::MeshFile> files;
+  for (const ModelDescription& model : models) {
+    if (model.grown) continue;
+    files.push_back({.path = model.mesh, .options = model.options});
+    if (model.light) files.push_back({.path = *model.light, .options = model.options});
+  }
+  return files;
+}
+
+farm::PlantModel make_model(const ModelDescription& description, mesh::MeshReader& meshes,
                             const std::filesystem::path& source) {
   farm::PlantModel model{.name = description.name, .mesh = {}};
   if (description.grown) {
     model.mesh = grown(description, crop::Detail::scan, source);
     model.light = grown(description, crop::Detail::light, source);
   } else {
-    model.mesh = mesh::import_mesh(description.mesh, description.options, &model.notes);
-    if (description.light) model.light = mesh::import_mesh(*description.light, description.options);
+    mesh::ImportedMesh imported = meshes.next();
+    model.mesh = std::move(imported.mesh);
+    model.notes = std::move(imported.notes);
+    if (description.light) model.light = meshes.next().mesh;
   }
   mesh::name_images_apart(meshes_of(model));
   apply_reflectance(description, source, model);
@@ -94,9 +107,10 @@ std::vector<farm::PlantModel> make_models(const std::vector<ModelDescription>& m
                                           const std::filesystem::path& source) {
   std::vector<farm::PlantModel> made;
   made.reserve(models.size());
+  mesh::MeshReader meshes(files_of(models));
   std::size_t triangles = 0;
   for (const ModelDescription& model : models) {
-    made.push_back(make_model(model, source));
+    made.push_back(make_model(model, meshes, source));
     triangles += made.back().mesh.triangles.size();
     if (made.back().light) triangles += made.back().light->triangles.size();
     if (triangles <= kMostTriangles) continue;

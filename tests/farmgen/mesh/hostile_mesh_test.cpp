@@ -51,14 +51,30 @@ std::string repeated(const std::string& text, int times) {
   return all;
 }
 
+constexpr const char* kCircle =
+    R"(<node id="a"><instance_node url="#b"/></node><node id="b"><instance_node url="#a"/></node>)";
+
+TEST(HostileMesh, OneThatCrashesItsReaderIsNamedAmongOthers) {
+  if (kSanitized) GTEST_SKIP() << "the sanitizer reports the child's crash as its own";
+  const TemporaryFolder folder;
+  const std::string triangle = R"(<instance_geometry url="#g"/>)";
+  const MeshFile sound{.path = folder.write("sound.dae", dae("", triangle))};
+  MeshReader reader({sound,
+                     {.path = folder.write(
+                          "circle.dae", dae(kCircle, triangle + R"(<instance_node url="#a"/>)"))},
+                     sound});
+  EXPECT_EQ(reader.next().mesh.triangles.size(), 1U);
+  EXPECT_THAT(message_of<InputError>([&] { reader.next(); }),
+              AllOf(HasSubstr("circle.dae: "), HasSubstr("crashed")));
+  EXPECT_EQ(reader.next().mesh.triangles.size(), 1U);
+}
+
 TEST(HostileMesh, NodesInACircleDoNoHarm) {
   if (kSanitized) GTEST_SKIP() << "the sanitizer reports the child's crash as its own";
   const TemporaryFolder folder;
-  const std::string circle =
-      R"(<node id="a"><instance_node url="#b"/></node><node id="b"><instance_node url="#a"/></node>)";
   const std::string triangle = R"(<instance_geometry url="#g"/>)";
   EXPECT_THAT(
-      refusal(folder.write("circle.dae", dae(circle, triangle + R"(<instance_node url="#a"/>)"))),
+      refusal(folder.write("circle.dae", dae(kCircle, triangle + R"(<instance_node url="#a"/>)"))),
       AllOf(HasSubstr("circle.dae: cannot be read as a mesh"), HasSubstr("crashed")));
   EXPECT_EQ(import_mesh(folder.write("sound.dae", dae("", triangle))).triangles.size(), 1u)
       << "the next mesh is read as ever";

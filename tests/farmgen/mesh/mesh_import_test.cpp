@@ -236,5 +236,24 @@ TEST(MeshImport, ThirdPartyPlantsHaveTheHeightsTheirAuthorsGive) {
   EXPECT_EQ(read, 3);
 }
 
+TEST(MeshReader, GivesTheFilesInTheirOrderAndEachsErrorAtItsTurn) {
+  const TemporaryFolder folder;
+  const MeshFile large{.path = folder.write("large.obj", kObjZUp)};
+  const MeshFile small{.path = folder.write("small.obj", kObjYUpCentimetres),
+                       .options = {.up = UpAxis::y, .unit_m = 0.005}};
+  const MeshFile broken{.path =
+                            folder.write("broken.obj", "v 0 0 nan\nv 1 0 0\nv 0 1 0\nf 1 2 3\n")};
+  const MeshFile missing{.path = folder.path() / "missing.obj"};
+  MeshReader sound({large, small, large});
+  for (const double height_m : {3.0, 1.5, 3.0})
+    EXPECT_NEAR(mesh_height(sound.next().mesh), height_m, 1e-6);
+  MeshReader reader({small, broken, large, missing});
+  EXPECT_NEAR(mesh_height(reader.next().mesh), 1.5, 1e-6);
+  EXPECT_EQ(message_of<InputError>([&] { reader.next(); }),
+            message_of<InputError>([&] { import_mesh(broken.path); }));
+  EXPECT_NEAR(mesh_height(reader.next().mesh), 3, 1e-6);
+  EXPECT_THAT(message_of<InputError>([&] { reader.next(); }), HasSubstr("missing.obj: no such"));
+}
+
 }  // namespace
 }  // namespace plotscan::mesh
