@@ -276,6 +276,13 @@ Columns low_part(Columns columns, float reach_m) {
                  });
 }
 
+Columns without(Columns columns, const std::vector<std::uint8_t>& nodes) {
+  return part_of(std::move(columns),
+                 [&](std::size_t node, std::span<Return> returns, std::vector<float>&) {
+                   return nodes[node] ? std::size_t{0} : returns.size();
+                 });
+}
+
 Columns near_part(Columns columns, const Field& surface, float low_m, float high_m,
                   const std::vector<std::uint8_t>& whole) {
   return part_of(std::move(columns), [&](std::size_t node, std::span<Return> returns,

@@ -57,6 +57,9 @@ Columns sort_into_columns(std::span<const Eigen::Vector3f> points, const Grid& g
 // column. Of a column in which all returns are that low, only a sample that is large enough.
 Columns low_part(Columns columns, float reach_m);
 
+// Without the returns of the nodes at which `nodes` is not 0.
+Columns without(Columns columns, const std::vector<std::uint8_t>& nodes);
+
 // The returns whose height above a surface lies between low_m and high_m; at nodes where `whole` is
 // not 0, all returns.
 Columns near_part(Columns columns, const Field& surface, float low_m, float high_m,

@@ -15,6 +15,7 @@
 #include "ground/internal/lower_surface.h"
 #include "ground/internal/misfit.h"
 #include "ground/internal/mixture.h"
+#include "ground/internal/plateaus.h"
 #include "ground/internal/solver.h"
 #include "ground/internal/uncertainty.h"
 
@@ -144,6 +145,7 @@ class Steps {
 
 Ground find_ground(Columns low, double noise_m, Steps& steps) {
   const Grid grid = low.grid;
+  low = without(std::move(low), plateaus(grid, upright_layer(low, noise_m).z_m, noise_m));
   const Layer upright = upright_layer(low, noise_m);
   Ground ground{.z_m = lower_surface(low, upright, noise_m), .evidence = {}, .layer = {}};
   steps.done();

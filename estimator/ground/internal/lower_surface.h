@@ -22,7 +22,7 @@ struct Layer {
 Layer upright_layer(const Columns& columns, double noise_m);
 
 // A first surface that follows the lowest returns; it lies within a few sigma of the ground where
-// ground is seen (docs/ground.md, step 3). Metres above the columns' base.
+// ground is seen (docs/ground.md, step 4). Metres above the columns' base.
 Field lower_surface(const Columns& columns, const Layer& upright, double noise_m);
 
 // A surface through the lowest layers wherever these are, canopy or ground: it follows ridges that

@@ -22,7 +22,7 @@ constexpr float kMostLeverage = 0.8f;
 // From this many returns per layer on, noise and ground can be told apart.
 constexpr double kTelling = 8;
 // The spread of errors over the squared mean of their square roots: 1.48 of normal ones, less of
-// what lies between few returns (docs/ground.md, step 7).
+// what lies between few returns (docs/ground.md, step 8).
 constexpr float kSpreadOfRoots = 1.18f;
 
 // Where the ground shows itself at a node.

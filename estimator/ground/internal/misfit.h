@@ -18,7 +18,7 @@ struct Fitted {
 // surface through few returns, ditches that the surface crosses, vegetation and roofs that it
 // climbs. No return comes from below the ground, so layers under the surface show its error around
 // them; layers above it may be canopy, and count only where they lie as near as the others
-// (docs/ground.md, step 7).
+// (docs/ground.md, step 8).
 Field misfit(const Grid& grid, const Layer& layer, const Fitted& fitted);
 
 }  // namespace plotscan::ground

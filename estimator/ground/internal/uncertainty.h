@@ -7,7 +7,7 @@
 
 namespace plotscan::ground {
 
-// Draws of the surface's error (docs/ground.md, step 6): from the normal distribution, given this
+// Draws of the surface's error (docs/ground.md, step 7): from the normal distribution, given this
 // evidence, of a surface whose second differences are white noise, as large as they are where the
 // ground is seen. `surface` is in metres above any plane.
 ErrorDraws draw_errors(const Grid& grid, const Field& surface, const Evidence& evidence,
