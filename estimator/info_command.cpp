@@ -31,9 +31,9 @@ void say_extent(const Program& program, const scan::CloudFacts& facts) {
   }
 }
 
-void say_system(const Program& program, const scan::CloudSystem& system, bool told) {
+void say_system(const Program& program, const scan::CloudSystem& system, bool stated) {
   const bool is_stated =
-      told || !system.crs.empty() || system.zone || system.units != CoordinateUnits{};
+      stated || !system.crs.empty() || system.zone || system.units != CoordinateUnits{};
   const std::string x_y = system.zone ? "degrees" : unit_name(system.units.horizontal_m);
   program.say("units      " + x_y + ", z in " + unit_name(system.units.vertical_m) +
               (is_stated ? "" : ", as nothing else is stated (--units)"));

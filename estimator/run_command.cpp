@@ -59,7 +59,7 @@ methods::RunOptions chosen_options(const Program& program, const RunArguments& a
   if (options.method == "dhami2020" && !options.boxes && !arguments.settings.contains("--plots")) {
     throw InputError("--plots is missing: how many plots lie in the field (or in --learn-box)");
   }
-  options.lattice.tell = [&program](const methods::lattice::WorkEstimate& work) {
+  options.lattice.on_work = [&program](const methods::lattice::WorkEstimate& work) {
     say_ahead(program, work);
   };
   return options;

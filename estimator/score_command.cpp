@@ -9,6 +9,7 @@
 
 #include "commands.h"
 #include "core/angle.h"
+#include "core/column_text.h"
 #include "core/plot_id.h"
 #include "score/run.h"
 
@@ -40,10 +41,11 @@ void say_errors(const Program& program, const std::vector<score::HeightScore>& h
   program.say("{:12} {:15} {:>5} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>5}", "height", "truth",
               "plots", "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2");
   for (const score::HeightScore& height : heights) {
-    program.say("{:12} {:15} {:5} {:7} {:7.2f} {:+7.2f} {:7.2f} {:7.2f} {:8.2f} {:5.2f}",
-                height.height, height.truth, height.plots, height.without, 100 * height.rmse_m,
-                100 * height.bias_m, 100 * height.mae_m, 100 * height.standard_error_m, height.r2,
-                height.correlation2);
+    program.say("{:12} {:15} {:5} {:7} {} {} {} {} {} {}", height.height, height.truth,
+                height.plots, height.without, column_text(100 * height.rmse_m, 7),
+                column_text(100 * height.bias_m, 7, true), column_text(100 * height.mae_m, 7),
+                column_text(100 * height.standard_error_m, 7), column_text(height.r2, 8),
+                column_text(height.correlation2, 5));
   }
   program.say(
       "RMSE, bias (estimate minus truth), MAE and SE (of the bias) in cm, over the plots "
@@ -75,7 +77,7 @@ void say_scores(const Program& program, const score::Scores& scores) {
   } else {
     say_boxes(program, scores.boxes);
   }
-  for (const std::string& note : scores.notes) program.say(note);
+  for (const std::string& note : scores.notes) program.announce("note: " + note);
   if (scores.heights.empty()) return;
   const std::set<std::string> heights = score::estimated_heights(scores.field);
   std::vector<score::HeightScore> shown;

@@ -130,8 +130,8 @@ void add_settings(CLI::App& fly, lidar::FlyOptions& options, CLI::Option& flight
         std::visit([&](const auto& value) { return add_setting(fly, setting, value, options); },
                    setting.value);
     option->group(setting.group);
-    if (setting.plans_flight) option->excludes(&flight);
-    if (setting.plans_strips) option->excludes(&waypoints);
+    if (setting.plans != lidar::Plan::none) option->excludes(&flight);
+    if (setting.plans == lidar::Plan::strips) option->excludes(&waypoints);
   }
 }
 

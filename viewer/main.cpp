@@ -42,7 +42,7 @@ void require_picture(const fs::path& png, std::span<const fs::path> inputs) {
   if (lower_extension(png) != ".png") throw InputError(png, "does not end in .png");
 }
 
-void tell(const Program& program, const fs::path& png) {
+void say_written(const Program& program, const fs::path& png) {
   program.say("wrote " + png.string());
   program.result({{"picture", png.string()}});
 }
@@ -60,7 +60,7 @@ void draw(const Program& program, const PictureArguments& arguments) {
   std::optional<fs::path> cloud;
   if (arguments.scan) cloud = file_or_inside(*arguments.scan, "cloud.pcd");
   view::draw_picture(farm, cloud, boxes, arguments.png, arguments.options);
-  tell(program, arguments.png);
+  say_written(program, arguments.png);
 }
 
 struct PlantsArguments {
@@ -87,7 +87,7 @@ void draw_plants(const Program& program, const PlantsArguments& arguments) {
          .mesh = mesh::import_mesh(path, import)});
   }
   view::draw_plants(plants, arguments.png, arguments.options);
-  tell(program, arguments.png);
+  say_written(program, arguments.png);
 }
 
 struct EstimateArguments {
@@ -124,7 +124,7 @@ void draw_field(const Program& program, const EstimateArguments& arguments) {
   require_picture(arguments.png, {{arguments.cloud, arguments.estimate}});
   const estimate::Estimate estimate = estimate_with_ground(arguments.estimate);
   view::draw_field(measured_cloud(program, arguments), estimate, arguments.png, arguments.field);
-  tell(program, arguments.png);
+  say_written(program, arguments.png);
 }
 
 void draw_plot(const Program& program, const EstimateArguments& arguments) {
@@ -132,7 +132,7 @@ void draw_plot(const Program& program, const EstimateArguments& arguments) {
   const estimate::Estimate estimate = estimate_with_ground(arguments.estimate);
   view::draw_plot(measured_cloud(program, arguments), estimate, PlotId(arguments.plot),
                   arguments.png, arguments.side);
-  tell(program, arguments.png);
+  say_written(program, arguments.png);
 }
 
 void add_estimate_arguments(CLI::App& command, EstimateArguments& arguments) {

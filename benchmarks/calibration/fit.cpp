@@ -10,9 +10,9 @@
 
 #include <tbb/parallel_for.h>
 
+#include "calibration/farm_groups.h"
 #include "calibration/fit_covariance.h"
 #include "calibration/fit_within.h"
-#include "calibration/groups.h"
 #include "core/error.h"
 #include "core/statistics.h"
 #include "heights/crop_model.h"
@@ -157,10 +157,11 @@ void find_surprises(heights::Calibration& calibration, Group group, std::size_t 
       if (i < first) continue;
       heights::CalibrationFarm& farm = calibration.farms[i];
       const Eigen::VectorXd scaled = others.scaled(farm.features);
-      const Eigen::VectorXd told = known_crops(others, crops.probabilities(scaled));
+      const Eigen::VectorXd recognised = known_crops(others, crops.probabilities(scaled));
       auto& from_others = group == Group::crop ? farm.from_crops : farm.from_libraries;
       from_others.novelty = crops.novelty(scaled);
-      from_others.standardised = standardised_errors(farm, model.mixture(scaled, farm.top_m, told));
+      from_others.standardised =
+          standardised_errors(farm, model.mixture(scaled, farm.top_m, recognised));
       if (group == Group::library) {
         farm.standardised_given_crop = standardised_errors(
             farm, model.mixture(scaled, farm.top_m, others.indicators_of(farm.crop)));

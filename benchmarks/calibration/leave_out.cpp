@@ -15,7 +15,7 @@ namespace {
 
 // A farm as the other farms predict it.
 struct ByOthers {
-  heights::FieldRatios told, given;
+  heights::FieldRatios recognised, given;
 };
 
 void add(double error_m, double sd_m, Errors& errors) {
@@ -48,17 +48,17 @@ std::vector<LeftOut> table_of(const heights::Calibration& calibration,
         LeftOut& row =
             table
                 .try_emplace({name, height},
-                             LeftOut{.name = name, .height = height, .told = {}, .given = {}})
+                             LeftOut{.name = name, .height = height, .recognised = {}, .given = {}})
                 .first->second;
         ++row.farms;
-        add_to(predictions[i].told, row.told);
+        add_to(predictions[i].recognised, row.recognised);
         add_to(predictions[i].given, row.given);
       }
     }
   }
   std::vector<LeftOut> rows;
   for (auto& [key, row] : table) {
-    finish(row.farms, row.told);
+    finish(row.farms, row.recognised);
     finish(row.farms, row.given);
     rows.push_back(row);
   }
@@ -82,8 +82,9 @@ std::vector<LeftOut> leave_out(const heights::Calibration& calibration, Group gr
             scaled, farm.top_m,
             {.probabilities = probabilities, .novelty = crops.novelty(scaled), .given = given});
       };
-      predictions[i] = {.told = ratios(known_crops(others, crops.probabilities(scaled)), false),
-                        .given = ratios(others.indicators_of(farm.crop), true)};
+      predictions[i] = {
+          .recognised = ratios(known_crops(others, crops.probabilities(scaled)), false),
+          .given = ratios(others.indicators_of(farm.crop), true)};
     }
   });
   return table_of(calibration, predictions);

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/groups.h"
+#include "calibration/farm_groups.h"
 #include "heights/calibration.h"
 
 namespace plotscan::calibration {
@@ -23,8 +23,8 @@ struct LeftOut {
   std::string name;  // of the kind
   std::string height;
   std::size_t farms = 0;
-  Errors told;   // crop derived from the canopy
-  Errors given;  // the crop given
+  Errors recognised;  // the crop recognised from the canopy
+  Errors given;       // the crop given
 };
 
 std::vector<LeftOut> leave_out(const heights::Calibration& calibration, Group group);

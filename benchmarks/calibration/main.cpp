@@ -125,8 +125,8 @@ void print_left_out(const Program& program, const heights::Calibration& fitted,
       return other.name == row.name && other.height == row.height;
     });
     program.say(fmt::format("{:20} {:11} {:4}", row.name, row.height, row.farms) +
-                figures("farm out", farms[i].told) + figures("crop given", farms[i].given) +
-                figures("library out", row.told) + figures("crop given", row.given) +
+                figures("farm out", farms[i].recognised) + figures("crop given", farms[i].given) +
+                figures("library out", row.recognised) + figures("crop given", row.given) +
                 (limit == limits.end()
                      ? ""
                      : fmt::format("  perfect rays {:5.2f} cm", 100 * limit->given.rmse_m)));

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
-#include "core/format.h"
+#include "core/format_version.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_file.h"

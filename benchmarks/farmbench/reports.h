@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "farmbench/results_table.h"
 #include "farmbench/suite_result.h"
-#include "farmbench/table.h"
 
 namespace plotscan::farmbench {
 
@@ -20,14 +20,5 @@ void write_reports(const std::filesystem::path& folder, const SuiteResult& resul
 // its flights.
 std::vector<std::string> summary_lines(const SuiteResult& result,
                                        const std::vector<TableRow>& table);
-
-// The truths that the reports show, of those in the table: the suite's, else the tallest and the
-// mean plant.
-std::vector<std::string> shown_truths(const SuiteResult& result,
-                                      const std::vector<TableRow>& table);
-
-// One row for each of the suite's methods and cases, whose columns of boxes count; named after the
-// method. All of a method's heights share its plots.
-std::vector<TableRow> plot_rows(const SuiteResult& result, const std::vector<TableRow>& table);
 
 }  // namespace plotscan::farmbench

@@ -9,7 +9,7 @@
 #include <unistd.h>
 
 #include "core/error.h"
-#include "core/format.h"
+#include "core/format_version.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_file.h"
@@ -28,14 +28,14 @@ namespace {
 
 using nlohmann::json;
 
-// What decides the results, besides the suite's file. A secret is not told.
+// What decides the results, besides the suite's file. The secret itself is left out.
 json options_json(const RunOptions& options, const std::string& suite) {
-  json told = {{"suite", suite},
-               {"methods", options.methods},
-               {"entered", options.entered},
-               {"secret", options.secret.has_value()}};
-  if (options.seeds) told["seeds"] = *options.seeds;
-  return told;
+  json document = {{"suite", suite},
+                   {"methods", options.methods},
+                   {"entered", options.entered},
+                   {"secret", options.secret.has_value()}};
+  if (options.seeds) document["seeds"] = *options.seeds;
+  return document;
 }
 
 void require_sound(const RunOptions& options) {

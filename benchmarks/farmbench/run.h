@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "core/progress.h"
+#include "farmbench/results_table.h"
 #include "farmbench/suite_result.h"
-#include "farmbench/table.h"
 
 namespace plotscan::farmbench {
 

@@ -81,7 +81,7 @@ std::vector<BlindField> blind_fields(const Suite& suite, const SuiteChoice& choi
   return list_of(by_code, [](const auto& entry) { return entry.second; });
 }
 
-std::string told_farm_sha256(const std::string& code, const std::string& farm_sha256) {
+std::string blinded_farm_sha256(const std::string& code, const std::string& farm_sha256) {
   return sha256_of(code + farm_sha256);
 }
 

@@ -31,7 +31,7 @@ struct BlindField {
 };
 
 // What a task says of a field's farm: equal farms of several fields must not show.
-std::string told_farm_sha256(const std::string& code, const std::string& farm_sha256);
+std::string blinded_farm_sha256(const std::string& code, const std::string& farm_sha256);
 
 // Every farm of a chosen suite, which outlives them, in the order of their codes: each is the
 // beginning of SHA-256 of the suite's and case's name, the seed and, where there is one, the

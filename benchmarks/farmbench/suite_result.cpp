@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "core/format.h"
+#include "core/format_version.h"
 
 namespace plotscan::farmbench {
 namespace {

@@ -5,14 +5,11 @@
 // filter (Zhang et al., IEEE TGRS 41(4), 2003), a raster of it, plots where they were drawn by
 // hand, and of each the 99th percentile of the points' heights above the raster. An entry to the
 // benchmark by its command line alone (docs/leaderboard.md).
-#include <algorithm>
-#include <cmath>
 #include <cstdio>
 #include <exception>
 #include <string>
 #include <vector>
 
-#include <pcl/common/common.h>
 #include <pcl/filters/voxel_grid.h>
 #include <pcl/io/pcd_io.h>
 #include <pcl/point_types.h>
@@ -24,6 +21,7 @@
 #include "core/plot_box.h"
 #include "core/statistics.h"
 #include "core/text_file.h"
+#include "fieldmethod/ground_raster.h"
 
 namespace {
 
@@ -60,82 +58,8 @@ Cloud ground_of(const Cloud::Ptr& cloud) {
   filter.setMaxDistance(kLargestStep_m);
   pcl::Indices ground;
   filter.extract(ground);
-  if (ground.empty()) throw InputError("no ground was found");
   return {*cloud, ground};
 }
-
-// Mean heights of the ground's points in square cells; a cell without any takes the mean of its
-// neighbours, cell after cell inwards.
-class Raster {
- public:
-  explicit Raster(const Cloud& ground) {
-    pcl::PointXYZ low, high;
-    pcl::getMinMax3D(ground, low, high);
-    low_x_ = static_cast<double>(low.x);
-    low_y_ = static_cast<double>(low.y);
-    columns_ = column(high.x) + 1;
-    rows_ = row(high.y) + 1;
-    std::vector<double> sums(columns_ * rows_, 0);
-    std::vector<int> counts(columns_ * rows_, 0);
-    for (const pcl::PointXYZ& point : ground) {
-      const std::size_t cell = row(point.y) * columns_ + column(point.x);
-      sums[cell] += static_cast<double>(point.z);
-      ++counts[cell];
-    }
-    z_m_.assign(sums.size(), kNaN);
-    for (std::size_t i = 0; i < sums.size(); ++i)
-      if (counts[i] > 0) z_m_[i] = sums[i] / counts[i];
-    while (fill_rim()) {
-    }
-  }
-
-  // Bilinear between the cells' centres.
-  double z_m(double x, double y) const {
-    const double u =
-        std::clamp((x - low_x_) / kCell_m - 0.5, 0.0, static_cast<double>(columns_ - 1));
-    const double v = std::clamp((y - low_y_) / kCell_m - 0.5, 0.0, static_cast<double>(rows_ - 1));
-    const auto c =
-        std::min(static_cast<std::size_t>(u), columns_ - std::min<std::size_t>(2, columns_));
-    const auto r = std::min(static_cast<std::size_t>(v), rows_ - std::min<std::size_t>(2, rows_));
-    const std::size_t next_c = std::min(c + 1, columns_ - 1);
-    const std::size_t next_r = std::min(r + 1, rows_ - 1);
-    const double s = u - static_cast<double>(c);
-    const double t = v - static_cast<double>(r);
-    return (1 - t) * ((1 - s) * at(r, c) + s * at(r, next_c)) +
-           t * ((1 - s) * at(next_r, c) + s * at(next_r, next_c));
-  }
-
- private:
-  std::size_t column(double x) const { return static_cast<std::size_t>((x - low_x_) / kCell_m); }
-  std::size_t row(double y) const { return static_cast<std::size_t>((y - low_y_) / kCell_m); }
-  double at(std::size_t r, std::size_t c) const { return z_m_[r * columns_ + c]; }
-
-  bool fill_rim() {
-    const std::vector<double> before = z_m_;
-    bool changed = false;
-    for (std::size_t cell = 0; cell < before.size(); ++cell) {
-      if (!std::isnan(before[cell])) continue;
-      std::vector<double> around;
-      const std::size_t r = cell / columns_;
-      const std::size_t c = cell % columns_;
-      if (r > 0) around.push_back(before[cell - columns_]);
-      if (r + 1 < rows_) around.push_back(before[cell + columns_]);
-      if (c > 0) around.push_back(before[cell - 1]);
-      if (c + 1 < columns_) around.push_back(before[cell + 1]);
-      std::erase_if(around, [](double z) { return std::isnan(z); });
-      if (around.empty()) continue;
-      z_m_[cell] = mean(around);
-      changed = true;
-    }
-    return changed;
-  }
-
-  double low_x_ = 0;
-  double low_y_ = 0;
-  std::size_t columns_ = 0;
-  std::size_t rows_ = 0;
-  std::vector<double> z_m_;
-};
 
 struct DrawnPlot {
   std::string number;
@@ -155,8 +79,8 @@ std::vector<DrawnPlot> read_plots(const char* boxes) {
   return plots;
 }
 
-void write_heights(const Cloud& cloud, const Raster& ground, const std::vector<DrawnPlot>& plots,
-                   const char* out) {
+void write_heights(const Cloud& cloud, const fieldmethod::GroundRaster& ground,
+                   const std::vector<DrawnPlot>& plots, const char* out) {
   TextFile table(out);
   table << "plot_number,height_p99_m\n";
   for (const DrawnPlot& plot : plots) {
@@ -182,7 +106,7 @@ int main(int argc, char** argv) {
   try {
     const Cloud::Ptr cloud = read_thinned(argv[1]);
     const std::vector<DrawnPlot> plots = read_plots(argv[2]);
-    write_heights(*cloud, Raster(ground_of(cloud)), plots, argv[3]);
+    write_heights(*cloud, fieldmethod::GroundRaster(ground_of(cloud), kCell_m), plots, argv[3]);
     return 0;
   } catch (const InputError& error) {
     std::fprintf(stderr, "field_method: %s\n", error.what());

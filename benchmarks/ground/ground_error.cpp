@@ -15,7 +15,7 @@
 #include "core/stopwatch.h"
 #include "farmfolder/plot_table.h"
 #include "farmfolder/terrain_ply.h"
-#include "methods.h"
+#include "ground_methods.h"
 
 namespace {
 

@@ -9,7 +9,7 @@
 #include "core/angle.h"
 #include "core/error.h"
 #include "core/list_of.h"
-#include "strata/draw.h"
+#include "strata/random_draws.h"
 #include "strata/scenery.h"
 
 namespace plotscan::strata {

@@ -7,7 +7,7 @@
 #include "core/error.h"
 #include "core/list_of.h"
 #include "lidar/fly_settings.h"
-#include "strata/side_by_side.h"
+#include "strata/trials_side_by_side.h"
 
 namespace plotscan::strata {
 namespace {
@@ -190,11 +190,11 @@ void border(const Field& field) {
 }
 
 // Nothing shows where one plot ends and the next begins: breeding trials whose rows run on at one
-// spacing. The estimator is told the width, and in half of the fields the length too.
+// spacing. The estimator is given the width, and in half of the fields the length too.
 void gapless(const Field& field) {
   draw_any(field);
   field.set("plots.gap_width_m", 0.0);
-  field.plan.told = chance(field.random, 0.5) ? Told::width : Told::sides;
+  field.plan.stated = chance(field.random, 0.5) ? Stated::width : Stated::sides;
 }
 
 // Cultivars from dwarfs to giants.

@@ -10,7 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "lidar/fly.h"
-#include "strata/beside.h"
+#include "strata/beside_plots.h"
 #include "strata/plant_draw.h"
 
 namespace plotscan::strata {
@@ -22,8 +22,8 @@ struct Sources {
   std::filesystem::path meshes;  // plants that others modelled: bean/, maize/; may be absent
 };
 
-// What the estimator is told of the plots, besides the cloud.
-enum class Told { nothing, width, sides };
+// What is stated of the plots to the estimator, besides the cloud.
+enum class Stated { nothing, width, sides };
 
 // One farm and its flight.
 struct FieldPlan {
@@ -38,7 +38,7 @@ struct FieldPlan {
   Beside beside = Beside::nothing;  // drawn by the seed
   // The cloud is cut to the rectangle about the plots, so far from them.
   std::optional<double> margin_m = std::nullopt;
-  Told told = Told::nothing;
+  Stated stated = Stated::nothing;
 };
 
 // What makes the field: two plans with equal documents make the same one.

@@ -12,7 +12,7 @@
 #include "lidar/make_farm.h"
 #include "scan/cloud_reader.h"
 #include "strata/empty_field.h"
-#include "strata/positions.h"
+#include "strata/thinned_cloud.h"
 
 namespace plotscan::strata {
 namespace fs = std::filesystem;

@@ -14,8 +14,8 @@
 #include "strata/field_plan.h"
 #include "strata/kept_field.h"
 #include "strata/measured_field.h"
-#include "strata/positions.h"
-#include "strata/table.h"
+#include "strata/measurement_table.h"
+#include "strata/thinned_cloud.h"
 
 namespace {
 
@@ -91,7 +91,7 @@ strata::MeasuredField measure(const Task& task, const Arguments& arguments, cons
     const strata::FieldPlan plan =
         strata::plan_field(arguments.secret, task.stratum, task.index, sources_of(arguments));
     field = strata::keep_farm(plan, folder, threads);
-    options.told = plan.told;
+    options.stated = plan.stated;
   }
   if (arguments.density_per_m2)
     field.cloud = strata::thinned_cloud(field.cloud, *arguments.density_per_m2, threads);

@@ -33,15 +33,16 @@ void count_box_figures(const PlotBox& truth, const estimate::PlotEstimate& plot,
   }
 }
 
-methods::lattice::Options told_options(Told told, const std::vector<score::TruePlot>& truth,
-                                       int threads) {
+methods::lattice::Options stated_to_lattice(Stated stated,
+                                            const std::vector<score::TruePlot>& truth,
+                                            int threads) {
   methods::lattice::Options options{.threads = threads};
-  if (told == Told::nothing) return options;
+  if (stated == Stated::nothing) return options;
   const PlotBox& plot = truth.front().box;
   const auto [width_m, length_m] = std::minmax(plot.width_m, plot.length_m);
   options.plot_width_m = width_m;
   // Of plots that are wider than long it is the length that nothing shows.
-  if (told == Told::sides || plot.width_m > plot.length_m) options.plot_length_m = length_m;
+  if (stated == Stated::sides || plot.width_m > plot.length_m) options.plot_length_m = length_m;
   return options;
 }
 
@@ -55,8 +56,8 @@ MeasuredField measure_field(const std::string& stratum, int index, const KeptFie
   estimate::Estimate estimate{.method = "lattice"};
   const Stopwatch watch;
   try {
-    estimate = methods::lattice::estimate_plots(field.cloud,
-                                                told_options(options.told, truth, options.threads));
+    estimate = methods::lattice::estimate_plots(
+        field.cloud, stated_to_lattice(options.stated, truth, options.threads));
     measured.points = estimate.diagnostics.points.value().read;
   } catch (const InputError& error) {
     measured.failure = error.what();

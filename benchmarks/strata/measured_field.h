@@ -29,12 +29,12 @@ struct MeasuredField {
 };
 
 struct MeasureOptions {
-  Told told = Told::nothing;
+  Stated stated = Stated::nothing;
   int hand_measured = 0;  // plots of each trial that are measured by hand (agree_with_hand)
   int threads = 1;
 };
 
-// Runs the default method on the cloud and on what is told of the plots, and scores its estimate.
+// Runs the default method on the cloud and on what is stated of the plots, and scores its estimate.
 MeasuredField measure_field(const std::string& stratum, int index, const KeptField& field,
                             const MeasureOptions& options);
 

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "core/random.h"
-#include "strata/draw.h"
+#include "strata/random_draws.h"
 
 namespace plotscan::strata {
 

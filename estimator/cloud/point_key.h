@@ -38,7 +38,7 @@ inline constexpr int kCellsATile = kCellsAMetre * kCellsAMetre;
 // Whether a point has a key: 1,000,000 km is as far as x and y reach, 2,000 km z.
 bool is_in_reach(const Eigen::Vector3d& point);
 
-// The key of a point; nothing where it is out of reach.
+// The key of a point; absent where it is out of reach.
 std::optional<PlacedKey> key_of(const Eigen::Vector3d& point);
 
 // The point that a key stands for, relative to `origin`.

@@ -80,7 +80,7 @@ struct GivenMeasured {
 // Facts found while an estimate was made. Those that another part of the program uses have a member
 // of their own; files and the library get all of them from to_json.
 struct Diagnostics {
-  std::optional<std::vector<std::string>> notes = {};  // how the cloud was read, a sentence each
+  std::optional<std::vector<std::string>> notes = {};  // how the input was read, a sentence each
   std::optional<PointAccount> points = {};
   std::optional<double> density_per_m2 = {};  // in the median square of the field
   std::optional<GroundFacts> ground = {};

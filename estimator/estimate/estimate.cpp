@@ -12,6 +12,8 @@
 #include "core/geodesy.h"
 #include "core/list_of.h"
 #include "core/manifest.h"
+#include "core/place_json.h"
+#include "core/stated_system.h"
 #include "core/statistics.h"
 #include "estimate/ground_grids.h"
 #include "estimate/height_properties.h"
@@ -36,6 +38,25 @@ bool is_measured(std::string property) {
     if (property.starts_with(before)) property.erase(0, before.size());
   }
   return !height_of(property).empty();
+}
+
+// What stands before a map's property of a name that an estimate gives its plots.
+constexpr std::string_view kGiven = "given_";
+
+// The same of a map that has been through an estimate already, and through one of that.
+bool was_given(std::string property) {
+  if (!property.starts_with(kGiven)) return false;
+  while (property.starts_with(kGiven)) property.erase(0, kGiven.size());
+  return is_measured(property);
+}
+
+// Whether a height has its standard error beside it.
+bool has_error_of_height(const json& properties) {
+  for (const auto& [property, value] : properties.items()) {
+    if (!height_of(property).empty() && properties.contains(std::string(kError) + property))
+      return true;
+  }
+  return false;
 }
 
 // Adds numbers as properties of these names.
@@ -167,6 +188,25 @@ void read_made_by(const fs::path& folder, Estimate& estimate) {
 
 }  // namespace
 
+bool is_of_estimate(const std::vector<PlotFeature>& features) {
+  return std::ranges::any_of(features, [](const PlotFeature& feature) {
+    const json& properties = feature.properties;
+    const bool has_box = std::ranges::all_of(
+        kBoxProperties, [&](const char* name) { return properties.contains(name); });
+    return has_box && properties.contains("points") &&
+           (properties.contains(kPlane[0]) || has_error_of_height(properties));
+  });
+}
+
+json own_attributes(const PlotFeature& feature) {
+  json attributes = json::object();
+  for (const auto& [property, value] : feature.properties.items()) {
+    if (!is_measured(property) && !was_given(property) && !is_box_property(property))
+      attributes[property] = value;
+  }
+  return attributes;
+}
+
 json given_attributes(const PlotFeature& feature) {
   json attributes = json::object();
   for (const auto& [property, value] : feature.properties.items()) {
@@ -174,8 +214,8 @@ json given_attributes(const PlotFeature& feature) {
   }
   for (const auto& [property, value] : feature.properties.items()) {
     if (!is_measured(property)) continue;
-    std::string name = "given_" + property;
-    while (attributes.contains(name)) name.insert(0, "given_");
+    std::string name = std::string(kGiven) + property;
+    while (attributes.contains(name)) name.insert(0, kGiven);
     attributes[name] = value;
   }
   return attributes;
@@ -200,19 +240,21 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
         });
   }
   write_heights(folder / "heights.csv", estimate);
-  if (estimate.ground) write_ground(folder, *estimate.ground, units);
+  if (estimate.ground) write_ground(folder, *estimate.ground, units, estimate.crs);
   if (estimate.clusters.empty()) return;
   const auto feature = [](const PlotBox& box) { return PlotFeature{.box = box}; };
   write_plot_features(folder / "clusters.geojson", list_of(estimate.clusters, feature),
                       estimate.crs, estimate.units);
 }
 
-Estimate read_estimate(const fs::path& path) {
+Estimate read_estimate(const fs::path& path, const std::string& crs) {
   const bool is_folder = fs::is_directory(path);
   const fs::path file = is_folder ? path / "plots.geojson" : path;
   Estimate estimate;
   if (is_folder) read_made_by(path, estimate);
-  const PlacedPlots placed = read_plot_features(file, "");
+  const nlohmann::json document = read_map_document(file);
+  const PlacedPlots placed = plot_features_of(document, file, crs);
+  estimate.crs = placed.from_degrees ? crs : stated_system(document).crs;
   estimate.units = placed.units;
   estimate.plots = plots_of(placed.plots, file);
   if (is_folder && fs::exists(path / "clusters.geojson"))

@@ -78,16 +78,25 @@ void write_estimate(const std::filesystem::path& folder, const Estimate& estimat
 // Reads an estimate folder's plots.geojson, or a GeoJSON file, Plotscan's or anyone's: heights are
 // its numeric properties named height_<name>_m or canopy_<name>_m; a plot's id is its feature's,
 // else its plot_number, else its place in the file. The method is the one that the folder's
-// manifest.json names, "" without a manifest. The ground's grids are not read. Throws InputError as
+// manifest.json names, "" without a manifest. The ground's grids are not read. A file
+// in longitude and latitude is brought into `crs`, which is UTM's. Throws InputError as
 // read_plot_features and plots_of do, when no plot has a height, and when a file that no method of
 // ours wrote has no plot.
-Estimate read_estimate(const std::filesystem::path& path);
+Estimate read_estimate(const std::filesystem::path& path, const std::string& crs = "");
 
 // The attributes of a feature in the user's map, to be written back (PlotEstimate::attributes): all
 // its properties except the five of its box. Properties with a name that an estimate writes itself
 // (heights, their errors, points, confidence, flags) are renamed given_<name>, so that nobody takes
 // the map's values for measured ones.
 nlohmann::json given_attributes(const PlotFeature& feature);
+
+// Whether a map's features are an estimate's of ours, as written or saved again by a GIS: one of
+// them has its box and `points`, and a height's standard error or a plane of ground.
+bool is_of_estimate(const std::vector<PlotFeature>& features);
+
+// The attributes of a feature in such a map: its properties except those that the estimate
+// measured, and those that were named given_<name> in it.
+nlohmann::json own_attributes(const PlotFeature& feature);
 
 // The feature's property trial_number, a whole number; 0 without one.
 int trial_of(const PlotFeature& feature);

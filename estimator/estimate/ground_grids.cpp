@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/text_file.h"
 #include "estimate/internal/esri_grid.h"
+#include "estimate/internal/esri_wkt.h"
 
 namespace plotscan::estimate {
 namespace fs = std::filesystem;
@@ -63,8 +64,13 @@ std::vector<float> values_of(const fs::path& path, const ground::Surface& surfac
 }  // namespace
 
 void write_ground(const fs::path& folder, const ground::Surface& surface,
-                  const CoordinateUnits& units) {
+                  const CoordinateUnits& units, const std::string& crs) {
   const double unit_m = units.horizontal_m;
+  const std::string wkt = esri_wkt(crs, unit_m);
+  if (!wkt.empty()) {
+    for (const char* grid : {"ground", "ground_se", "ground_seen"})
+      write_text_file(folder / (std::string(grid) + ".prj"), wkt + "\n");
+  }
   write_grid(folder / "ground.asc", surface, unit_m,
              [&](std::size_t node) { return rounded(surface.z_m[node], units.vertical_m); });
   write_grid(folder / "ground_se.asc", surface, unit_m,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "core/coordinate_units.h"
 #include "ground/surface.h"
@@ -11,10 +12,12 @@ namespace plotscan::estimate {
 // Writes a surface as three ESRI ASCII grids, one node a cell, into an existing folder, for QGIS,
 // GDAL and R: ground.asc (height), ground_se.asc (its standard error), -9999 out of reach, and
 // ground_seen.asc (1 where ground returns show it, 0 where it is interpolated, -9999 out of reach).
-// Throws WriteError when they cannot be written. The files' numbers are in `units`; heights and
-// standard errors in the unit of z.
+// The files' numbers are in `units`; heights and standard errors in the unit of z. Where GDAL knows
+// the coordinate system `crs` ("EPSG:<code>" or well-known text), a .prj beside each grid describes
+// it; in feet of a system in metres, and in a build without GDAL, there is none. Throws WriteError
+// when the files cannot be written.
 void write_ground(const std::filesystem::path& folder, const ground::Surface& surface,
-                  const CoordinateUnits& units = {});
+                  const CoordinateUnits& units = {}, const std::string& crs = "");
 
 // Reads the three grids of such a folder back, Plotscan's or another program's (lower left corner
 // or centre, any line breaks, any value for no data); `noise_m` is not in them and stays 0. Throws

@@ -8,7 +8,9 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "core/list_of.h"
 #include "core/text.h"
+#include "estimate/internal/overlaps.h"
 #include "estimate/internal/table_columns.h"
 #include "estimate/internal/vector_map.h"
 
@@ -16,12 +18,12 @@ namespace plotscan::estimate {
 namespace fs = std::filesystem;
 namespace {
 
-std::string properties_of(const std::vector<PlotFeature>& plots) {
+std::set<std::string> property_names(const std::vector<PlotFeature>& plots) {
   std::set<std::string> names;
   for (const PlotFeature& plot : plots) {
     for (const auto& [name, value] : plot.properties.items()) names.insert(name);
   }
-  return joined({names.begin(), names.end()}, ", ");
+  return names;
 }
 
 // The property in which at least one plot has an id.
@@ -32,14 +34,18 @@ std::optional<std::string> id_property_of(const fs::path& file,
     return std::ranges::any_of(
         plots, [&](const PlotFeature& plot) { return id_in(plot, property).has_value(); });
   };
+  const std::set<std::string> names = property_names(plots);
   if (wanted) {
     if (names_a_plot(*wanted)) return wanted;
     throw InputError(file, "no plot has an id in a property \"{}\"; the plots' properties are: {}",
-                     *wanted, properties_of(plots));
+                     *wanted, joined({names.begin(), names.end()}, ", "));
   }
-  const auto found = std::ranges::find_if(plot_id_properties(), names_a_plot);
-  if (found == plot_id_properties().end()) return std::nullopt;
-  return *found;
+  for (const std::string& property : plot_id_properties()) {
+    if (names_a_plot(property)) return property;
+    for (const std::string& name : names)
+      if (is_same_name(name, property) && names_a_plot(name)) return name;
+  }
+  return std::nullopt;
 }
 
 // "feature 3".
@@ -123,12 +129,12 @@ NamedPlaces read_named_places(const fs::path& file, const std::optional<std::str
   if (!property)
     throw InputError(file, "has no id of a plot; --id names the column, such as plot_id");
   const std::vector<PlotId> ids = ids_of(file, plots, where, *property);
+  const auto attributes = is_of_estimate(plots) ? own_attributes : given_attributes;
   NamedPlaces named{.id_property = *property};
   for (std::size_t i = 0; i < plots.size(); ++i) {
     const std::pair place{place_of(file, table, table.lines[i], row),
                           place_of(file, table, table.lines[i], column)};
-    const bool is_new =
-        named.plots.emplace(place, NamedPlot{ids[i], given_attributes(plots[i])}).second;
+    const bool is_new = named.plots.emplace(place, NamedPlot{ids[i], attributes(plots[i])}).second;
     if (!is_new)
       throw InputError(file, table.lines[i].line, "names a row and column that has a plot already");
   }
@@ -149,19 +155,25 @@ PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_
     for (std::size_t i = 0; i < map.plots.size(); ++i) map.ids.emplace_back(i + 1);
   }
   require_plot_size(file, map);
+  map.note = overlap_note(list_of(map.plots, &PlotFeature::box), map.ids);
   return map;
 }
 
 void take_names(const PlotMap& map, Estimate& estimate) {
   check(map.plots.size() == estimate.plots.size(), "an estimate of other plots than the map's");
   estimate.id_property = map.id_property;
+  const auto attributes = is_of_estimate(map.plots) ? own_attributes : given_attributes;
   for (std::size_t i = 0; i < map.plots.size(); ++i) {
     const PlotEstimate named = plot_of(map.plots[i], i + 1);
     estimate.plots[i].id = map.ids[i];
     estimate.plots[i].trial = named.trial;
     estimate.plots[i].row = named.row;
     estimate.plots[i].column = named.column;
-    estimate.plots[i].attributes = given_attributes(map.plots[i]);
+    estimate.plots[i].attributes = attributes(map.plots[i]);
+  }
+  if (!map.note.empty()) {
+    if (!estimate.diagnostics.notes) estimate.diagnostics.notes.emplace();
+    estimate.diagnostics.notes->push_back(map.note);
   }
   estimate.diagnostics.boxes = {
       .plots = map.plots.size(), .id_property = map.id_property, .from_degrees = map.from_degrees};

@@ -20,6 +20,7 @@ struct PlotMap {
   // The property that holds the ids; "plot_number" where none does, and plots are numbered from 1.
   std::string id_property = "plot_number";
   bool from_degrees = false;  // the file has longitude and latitude, which were converted
+  std::string note = {};      // what is odd about its boxes; "" where nothing is
 };
 
 inline constexpr double kMostPlot_m2 = 10000;  // of a given plot
@@ -28,9 +29,10 @@ inline constexpr double kMostPlot_m2 = 10000;  // of a given plot
 // `crs`, `unit_m` metres to one unit of it: in these units, or in longitude and latitude where that
 // is UTM's in metres (read_plot_features). The ids are those of the property `id_property`; without
 // it of the first of plot_number, plot_id, plot_name, observationUnitName, observationunit_name,
-// name and id that the plots have; "id" may be a member of the feature as well. Throws InputError
-// as read_plot_features does, on a file without plots or with one over kMostPlot_m2, where some
-// plots have an id and others none, and where two have the same: the message names them.
+// name and id that the plots have; "id" may be a member of the feature as well. Such a
+// property counts whatever the case, underscores and blanks of its name ("Plot ID"). Throws
+// InputError as read_plot_features does, on a file without plots or with one over kMostPlot_m2,
+// where some plots have an id and others none, and where two have the same: the message names them.
 PlotMap read_plot_map(const std::filesystem::path& file, const std::string& crs, double unit_m,
                       const std::optional<std::string>& id_property = std::nullopt);
 

@@ -80,14 +80,12 @@ std::string quoted(const std::vector<std::string>& flags) {
   return flags.empty() ? "" : '"' + joined(flags, "; ") + '"';
 }
 
-// The place in the grid, as given or found; `without` where there is none. The trial only where
-// there are several.
-void add_place(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns,
-               const std::string& without) {
+// The place in the grid, as given or found; empty where there is none. The trial only where there
+// are several.
+void add_place(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
+  const auto text = [](int place) { return place > 0 ? std::to_string(place) : ""; };
   if (std::ranges::any_of(plots, [](const auto& plot) { return plot.trial > 0; }))
-    columns.push_back(
-        {"trial_number", [](const auto& plot) { return std::to_string(plot.trial); }});
-  const auto text = [without](int place) { return place > 0 ? std::to_string(place) : without; };
+    columns.push_back({"trial_number", [text](const auto& plot) { return text(plot.trial); }});
   columns.push_back({"row_number", [text](const auto& plot) {
                        return attribute(plot, "row_number", text(plot.row));
                      }});
@@ -111,7 +109,7 @@ std::vector<Column> columns_of(const Estimate& estimate) {
   const std::vector<PlotEstimate>& plots = estimate.plots;
   std::vector<Column> columns = {
       {estimate.id_property, [](const auto& plot) { return csv_field(plot.id.text()); }}};
-  add_place(plots, columns, "0");
+  add_place(plots, columns);
   const std::vector<Column> box = {
       {"center_x_m", [](const auto& plot) { return format_number(plot.box.center.x()); }},
       {"center_y_m", [](const auto& plot) { return format_number(plot.box.center.y()); }},
@@ -138,7 +136,7 @@ std::vector<Column> trait_columns(const std::vector<PlotEstimate>& plots) {
   const std::string unit = "observationunit_name";
   const auto id_of = [](const PlotEstimate& plot) { return csv_field(plot.id.text()); };
   std::vector<Column> columns = {{unit, id_of}};
-  add_place(plots, columns, "");
+  add_place(plots, columns);
   add_attributes(plots, columns);
   // An attribute of the first column's name, where the ids are another one.
   if (std::ranges::any_of(plots, [&](const auto& plot) {

@@ -2,6 +2,7 @@
 #include "fieldpage/field_page.h"
 
 #include "core/error.h"
+#include "core/geodesy.h"
 #include "core/manifest.h"
 #include "core/output_file.h"
 #include "core/output_folder.h"
@@ -13,8 +14,9 @@ namespace plotscan::fieldpage {
 namespace fs = std::filesystem;
 namespace {
 
-estimate::Estimate read(const fs::path& path) {
-  estimate::Estimate estimate = estimate::read_estimate(path);
+estimate::Estimate read(const fs::path& path, const std::optional<fs::path>& truth) {
+  estimate::Estimate estimate =
+      truth ? score::read_estimate_beside(*truth, path) : estimate::read_estimate(path);
   if (fs::exists(path / "ground.asc"))
     estimate.ground = estimate::read_ground(path, estimate.units.value_or(CoordinateUnits{}));
   return estimate;
@@ -26,8 +28,8 @@ std::optional<std::string> other_cloud_note_of(const fs::path& estimate, const C
   return other_cloud_note(estimate, cloud.files.front());
 }
 
-// The coordinate system that estimator run was told, if it was.
-std::optional<std::string> told_crs(const fs::path& estimate) {
+// The coordinate system that was given to estimator run, if any.
+std::optional<std::string> given_crs(const fs::path& estimate) {
   const nlohmann::json::json_pointer crs("/options/crs");
   if (!fs::exists(estimate / "manifest.json")) return std::nullopt;
   const nlohmann::json manifest = read_manifest(estimate);
@@ -49,8 +51,8 @@ void show_cloud(report::ShownField& field, const PageOptions& options,
   cloud.files = cloud_files_of(cloud.files);
   const std::optional<std::string> note = other_cloud_note_of(options.estimate, cloud);
   if (cloud.units && units) require_those_units(options.estimate, *cloud.units, *units);
-  if (!cloud.units) cloud.units = units;  // as estimator run was told
-  if (!cloud.crs && !note) cloud.crs = told_crs(options.estimate);
+  if (!cloud.units) cloud.units = units;  // as they were given to estimator run
+  if (!cloud.crs && !note) cloud.crs = given_crs(options.estimate);
   field.cloud = read_shown_positions(cloud, options.points, progress);
   report::note_cloud_elsewhere(field, cloud.name());
   field.facts.push_back({"points of the cloud", std::to_string(field.cloud->read)});
@@ -65,11 +67,17 @@ void add_truth(report::ShownField& field, const estimate::Estimate& estimate, co
     field.facts.push_back({"plots measured by hand", std::to_string(shown)});
     return;
   }
-  const std::vector<score::TruePlot> plots = score::read_truth(truth);
+  const std::vector<score::TruePlot> plots = score::read_truth(truth, estimate.crs);
   show_truth(field, estimate, plots);
-  if (score::lie_apart(plots, estimate)) field.notes.emplace_back(score::kApart);
+  if (const std::string note = score::apart_note(plots, estimate); !note.empty())
+    field.notes.push_back(note);
   const fs::path terrain = truth / "truth" / "terrain.ply";
-  if (fs::exists(terrain)) show_terrain(field, farmfolder::read_terrain(terrain));
+  if (fs::exists(terrain)) {
+    if (utm_system(estimate.crs))
+      field.notes.emplace_back("The true ground is not shown: it is in the farm's own metres.");
+    else
+      show_terrain(field, farmfolder::read_terrain(terrain));
+  }
   field.facts.push_back({"true plots", std::to_string(field.true_boxes.size())});
 }
 
@@ -83,7 +91,7 @@ report::PageSummary write_estimate_page(const PageOptions& options,
     inputs.insert(inputs.end(), options.cloud->files.begin(), options.cloud->files.end());
   report::require_page(options.html, inputs);
   OutputFile file(options.html, options.replace);
-  const estimate::Estimate estimate = read(options.estimate);
+  const estimate::Estimate estimate = read(options.estimate, options.truth);
   report::ShownField field{.name = report::shown_name(options.estimate)};
   if (!estimate.method.empty()) field.facts.push_back({"method", estimate.method});
   field.facts.push_back({"plots", std::to_string(estimate.plots.size())});

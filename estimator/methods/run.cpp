@@ -169,18 +169,18 @@ void take_system(const scan::CloudSystem& system, const RunOptions& options,
   estimate.diagnostics.notes = std::move(notes);
 }
 
-// What may be told of the plots and was not, the most helpful first.
+// What the user may state of the plots and has not, the most helpful first.
 std::vector<std::string> hints_left(const RunOptions& options) {
-  const lattice::Options& told = options.lattice;
+  const lattice::Options& stated = options.lattice;
   std::vector<std::string> hints;
-  if (!told.plot_width_m && !told.plot_length_m) {
+  if (!stated.plot_width_m && !stated.plot_length_m) {
     hints.emplace_back("give the plots' sides with --plot-width and --plot-length");
-  } else if (!told.plot_width_m || !told.plot_length_m) {
-    hints.emplace_back(told.plot_width_m ? "give --plot-length as well"
-                                         : "give --plot-width as well");
-  } else if (!told.heading_deg) {
+  } else if (!stated.plot_width_m || !stated.plot_length_m) {
+    hints.emplace_back(stated.plot_width_m ? "give --plot-length as well"
+                                           : "give --plot-width as well");
+  } else if (!stated.heading_deg) {
     hints.emplace_back("give --heading as well");
-  } else if (!told.rows || !told.columns) {
+  } else if (!stated.rows || !stated.columns) {
     hints.emplace_back("give --rows and --columns as well");
   }
   hints.emplace_back("say where plots are with --boxes");
@@ -188,7 +188,7 @@ std::vector<std::string> hints_left(const RunOptions& options) {
   return hints;
 }
 
-// Advice for an estimate without plots, by what was found and what was told.
+// Advice for an estimate without plots, by what was found and what was stated.
 std::string next_step(const RunOptions& options, const estimate::Estimate& estimate) {
   const double density_m2 = estimate.diagnostics.density_per_m2.value_or(cloud::kPlotsFound_m2);
   std::vector<std::string> steps;

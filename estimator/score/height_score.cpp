@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/height_score.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "core/statistics.h"
 #include "estimate/height_properties.h"
+#include "methods/flags.h"
 #include "score/internal/moments.h"
 
 namespace plotscan::score {
@@ -14,10 +16,15 @@ double share(std::size_t part, std::size_t whole) {
   return ratio(static_cast<double>(part), static_cast<double>(whole));
 }
 
+bool is_flagged(const FoundPlot& plot, const std::string& height) {
+  return std::ranges::any_of(
+      plot.flags, [&](const std::string& flag) { return methods::concerns(flag, height); });
+}
+
 // `named`: the truth is the one that the height is named after.
 void add_trust(Trust& trust, const FoundPlot& plot, const std::string& height, double truth_m,
                bool named) {
-  if (!plot.flags.empty()) {
+  if (is_flagged(plot, height)) {
     ++trust.flagged;
   } else if (std::abs(plot.heights_m.at(height) - truth_m) > kLargeError_m) {
     ++trust.large_unflagged;
@@ -112,6 +119,30 @@ std::set<std::string> heights_beside(const std::string& truth,
     if (named_truth(height) == stated) return {height};
   }
   return heights;
+}
+
+std::string unit_hint(const FieldScore& field) {
+  constexpr double kCentimetres = 100, kWithin = 2;  // times as many, to a factor
+  const std::set<std::string> heights = estimated_heights(field);
+  std::vector<double> ratios;
+  for (const std::string& truth : true_heights(field)) {
+    for (const std::string& height : heights_beside(truth, heights)) {
+      const HeightPairs pairs = height_pairs(field, height, truth);
+      for (std::size_t i = 0; i < pairs.truths_m.size(); ++i)
+        if (pairs.truths_m[i] > 0) ratios.push_back(pairs.estimates_m[i] / pairs.truths_m[i]);
+    }
+  }
+  const double times = quantile(ratios, 0.5);
+  const auto is_about = [&](double wanted) {
+    return times >= wanted / kWithin && times <= wanted * kWithin;
+  };
+  if (is_about(kCentimetres))
+    return "Estimated heights are about 100 times the true ones: are they in centimetres? Files "
+           "have metres.";
+  if (is_about(1 / kCentimetres))
+    return "True heights are about 100 times the estimated ones: are they in centimetres? Files "
+           "have metres.";
+  return "";
 }
 
 std::vector<HeightScore> score_heights(const FieldScore& field) {

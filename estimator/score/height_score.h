@@ -26,8 +26,8 @@ inline constexpr double kLargeError_m = 0.05;
 struct Trust {
   std::size_t intervals = 0;        // with a 95 % interval; 0 where the height is not named so
   std::size_t covered = 0;          // of these, with the truth inside it
-  std::size_t flagged = 0;          // with a flag
-  std::size_t large_unflagged = 0;  // without a flag, and the error is large
+  std::size_t flagged = 0;          // with a flag that concerns the height (methods::concerns)
+  std::size_t large_unflagged = 0;  // without such a flag, and the error is large
 };
 
 // One estimated height beside one true height, plot by plot.
@@ -61,7 +61,7 @@ struct HeightScore {
   // Share of truths inside the estimate's own 95 % intervals; NaN without intervals, and where the
   // truth is not the one that the height is named after.
   double coverage95 = 0;
-  std::size_t flagged = 0;           // plots with a flag
+  std::size_t flagged = 0;           // plots with a flag that concerns the height
   std::size_t large_unflagged = 0;   // plots without one whose error is beyond kLargeError_m
   double large_unflagged_share = 0;  // of all plots
 };
@@ -77,5 +77,10 @@ std::vector<HeightScore> score_heights(const FieldScore& field);
 // them.
 std::set<std::string> heights_beside(const std::string& truth,
                                      const std::set<std::string>& heights);
+
+// What to tell the user where heights look like centimetres: the median ratio of estimates to the
+// truths that they are compared with (heights_beside) is 100 to a factor of 2, or a hundredth; ""
+// elsewhere.
+std::string unit_hint(const FieldScore& field);
 
 }  // namespace plotscan::score

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/run.h"
 
-#include "core/format.h"
+#include "core/format_version.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
@@ -40,6 +40,7 @@ json to_json(const Scores& scores) {
                    {"boxes", scores.table ? json(nullptr) : json(scores.boxes)},
                    {"heights", scores.heights},
                    {"field", scores.field}};
+  if (!scores.notes.empty()) document["notes"] = scores.notes;
   if (const auto& table = scores.table) {
     document["table"] = {{"id_column", table->id_column}, {"not_found", table->not_found}};
   }
@@ -54,7 +55,9 @@ Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estim
   scores.heights = score_heights(scores.field);
   if (const std::string& why = estimate.diagnostics.why_no_plots; !why.empty())
     scores.notes.push_back("The estimate has no plots: " + why);
-  if (lie_apart(truth, estimate)) scores.notes.emplace_back(kApart);
+  if (const std::string note = apart_note(truth, estimate); !note.empty())
+    scores.notes.push_back(note);
+  if (const std::string hint = unit_hint(scores.field); !hint.empty()) scores.notes.push_back(hint);
   if (scores.boxes.found > 0 && scores.heights.empty()) {
     scores.notes.push_back(std::string("No height is compared: no ") +
                            (true_heights(scores.field).empty() ? "true" : "found") +
@@ -66,7 +69,8 @@ Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estim
 
 Scores score_against(const fs::path& truth, const estimate::Estimate& estimate,
                      const ScoreOptions& options) {
-  if (!is_measured_table(truth, options.id)) return score(read_truth(truth), estimate, options);
+  if (!is_measured_table(truth, options.id))
+    return score(read_truth(truth, estimate.crs), estimate, options);
   const MeasuredPlots measured = read_measured(truth, estimate, options.id);
   Scores scores = score(measured.plots, estimate, options);
   scores.table = {.id_column = measured.id_column, .not_found = measured.not_found};
@@ -74,8 +78,8 @@ Scores score_against(const fs::path& truth, const estimate::Estimate& estimate,
 }
 
 Scores run(const RunOptions& options) {
-  Scores scores =
-      score_against(options.truth, estimate::read_estimate(options.estimate), options.score);
+  Scores scores = score_against(
+      options.truth, read_estimate_beside(options.truth, options.estimate), options.score);
   if (options.output) write_scores(scores, options);
   return scores;
 }

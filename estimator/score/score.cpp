@@ -3,13 +3,19 @@
 
 #include <cmath>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/extent.h"
+#include "core/geodesy.h"
 #include "core/list_of.h"
 #include "core/plot_features.h"
+#include "core/stated_system.h"
 #include "core/statistics.h"
 #include "estimate/height_properties.h"
+#include "score/internal/farm_place.h"
 #include "score/internal/matching.h"
+#include "score/measured_table.h"
 
 namespace plotscan::score {
 namespace fs = std::filesystem;
@@ -61,15 +67,39 @@ void require_different_places(const std::vector<TruePlot>& plots, const fs::path
   }
 }
 
+// The UTM system of a truth, or of its place on Earth; "" without one.
+std::string utm_beside(const fs::path& truth) {
+  if (fs::is_directory(truth)) {
+    const std::optional<Anchor> anchor = anchor_of(truth);
+    return anchor ? utm_crs_of(*anchor) : "";
+  }
+  const std::string crs = is_measured_table(truth) ? "" : stated_system(truth).crs;
+  return utm_system(crs) ? crs : "";
+}
+
+std::string extent_text(const Eigen::AlignedBox2d& extent) {
+  return fmt::format("x {:.1f} to {:.1f}, y {:.1f} to {:.1f}", extent.min().x(), extent.max().x(),
+                     extent.min().y(), extent.max().y());
+}
+
 double root_mean_square(const std::vector<double>& values) {
   return std::sqrt(mean(list_of(values, [](double value) { return value * value; })));
 }
 
 }  // namespace
 
-std::vector<TruePlot> read_truth(const fs::path& farm) {
+std::vector<TruePlot> read_truth(const fs::path& farm, const std::string& crs) {
   const fs::path file = fs::is_directory(farm) ? farm / "truth" / "plots.geojson" : farm;
-  const std::vector<PlotFeature> features = read_plot_features(file);
+  if (!fs::exists(file) && fs::exists(farm / "plots.geojson"))
+    throw InputError(farm,
+                     "is an estimate, and the truth is a farm's folder, or a map or table of "
+                     "measured heights; to compare two estimates give its plots.geojson");
+  const std::optional<UtmSystem> utm = utm_system(crs);
+  std::vector<PlotFeature> features = read_plot_features(file, utm ? crs : "").plots;
+  const std::optional<Anchor> anchor = utm ? anchor_of(farm) : std::nullopt;
+  if (anchor) {
+    for (PlotFeature& feature : features) feature.box = in_utm(feature.box, *anchor, utm->zone);
+  }
   std::vector<TruePlot> plots;
   for (const estimate::PlotEstimate& plot : estimate::plots_of(features, file)) {
     plots.push_back({.id = plot.id,
@@ -82,6 +112,12 @@ std::vector<TruePlot> read_truth(const fs::path& farm) {
   if (plots.empty()) throw InputError(file, "has no plots");
   require_different_places(plots, file);
   return plots;
+}
+
+estimate::Estimate read_estimate_beside(const fs::path& truth, const fs::path& estimate) {
+  const fs::path map = fs::is_directory(estimate) ? estimate / "plots.geojson" : estimate;
+  const bool in_degrees = fs::exists(map) && stated_system(map).in_degrees;
+  return estimate::read_estimate(estimate, in_degrees ? utm_beside(truth) : "");
 }
 
 FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate,
@@ -105,6 +141,16 @@ bool lie_apart(const std::vector<TruePlot>& truth, const estimate::Estimate& est
   const Eigen::AlignedBox2d true_extent = extent_of(truth, &TruePlot::box);
   const Eigen::AlignedBox2d extent = extent_of(estimate.plots, &estimate::PlotEstimate::box);
   return !true_extent.isEmpty() && !extent.isEmpty() && !true_extent.intersects(extent);
+}
+
+std::string apart_note(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate) {
+  if (!lie_apart(truth, estimate)) return "";
+  return fmt::format(
+      "All plots of the estimate lie apart from the true ones, and the two do not overlap at all: "
+      "estimated plots lie within {}, true ones within {} (metres). Are both in the same "
+      "coordinates? A farm is brought into an estimate's where it has an anchor and these are UTM.",
+      extent_text(extent_of(estimate.plots, &estimate::PlotEstimate::box)),
+      extent_text(extent_of(truth, &TruePlot::box)));
 }
 
 BoxScore score_boxes(std::span<const FieldScore> fields) {

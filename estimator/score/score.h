@@ -26,10 +26,17 @@ struct TruePlot {
 };
 
 // Reads the true plots of a farm folder (its truth/plots.geojson), or of any GeoJSON file whose
-// plots carry numbers height_<name>_m or canopy_<name>_m, such as hand measurements. Throws
-// InputError as read_plot_features and estimate::plots_of do, when there is no plot, and when two
-// are at one place.
-std::vector<TruePlot> read_truth(const std::filesystem::path& farm);
+// plots carry numbers height_<name>_m or canopy_<name>_m, such as hand measurements. `crs` is the
+// system of the estimate beside them ("" if unknown): where it is UTM in metres, a farm that knows
+// its place on Earth (anchor) and a map in longitude and latitude are brought into it. Throws
+// InputError as read_plot_features and estimate::plots_of do, when there is no plot, when two are
+// at one place, and on an estimate's folder.
+std::vector<TruePlot> read_truth(const std::filesystem::path& farm, const std::string& crs = "");
+
+// Reads an estimate beside its truth (estimate::read_estimate): one in longitude and latitude comes
+// in the UTM system that the truth is in, or could be brought into.
+estimate::Estimate read_estimate_beside(const std::filesystem::path& truth,
+                                        const std::filesystem::path& estimate);
 
 // A true plot's match in the estimate: its errors and its estimated heights.
 struct FoundPlot {
@@ -69,9 +76,8 @@ FieldScore score_field(const std::vector<TruePlot>& truth, const estimate::Estim
 // rectangles share no place. False where one has no plots.
 bool lie_apart(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate);
 
-// What to tell the user then.
-inline constexpr const char* kApart =
-    "All plots of the estimate lie apart from the true ones: are both in the same coordinates?";
+// What to tell the user then, with the extents of both; "" otherwise.
+std::string apart_note(const std::vector<TruePlot>& truth, const estimate::Estimate& estimate);
 
 // How well plots were found, over one field or several together. Statistics of found plots are NaN
 // when there are none, and so is a share of nothing.

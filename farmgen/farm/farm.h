@@ -23,7 +23,7 @@ struct PlantModel {
   mesh::Mesh mesh;
   double height_m = 0;                   // highest vertex over the origin, measured from the mesh
   std::optional<mesh::Mesh> light = {};  // the same plant in few triangles, where there is one
-  // What the import of its mesh left out, one line each; not stored in the farm's folder.
+  // What the import of its mesh left out, and what is odd; not stored in the farm's folder.
   std::vector<std::string> notes = {};
 };
 

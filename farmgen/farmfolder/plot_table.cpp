@@ -98,7 +98,7 @@ nlohmann::json plot_attributes(const farm::Plot& plot) {
   return attributes;
 }
 
-// Nothing where the farm was made without.
+// Absent where the farm was made without.
 std::optional<farm::CanopyHeights> canopy_of(const Attributes& attributes) {
   if (!attributes.has(kCanopies.front().name)) return std::nullopt;
   farm::CanopyHeights canopy;

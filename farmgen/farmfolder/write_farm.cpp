@@ -6,7 +6,7 @@
 #include "core/stage.h"
 #include "farm/surface_colours.h"
 #include "farmfolder/internal/plant_table.h"
-#include "farmfolder/internal/world.h"
+#include "farmfolder/internal/world_sdf.h"
 #include "farmfolder/plot_table.h"
 #include "farmfolder/terrain_ply.h"
 #include "mesh/obj.h"

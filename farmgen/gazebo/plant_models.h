@@ -8,10 +8,10 @@
 
 #include "core/progress.h"
 #include "farm/farm.h"
-#include "gazebo/elements.h"
 #include "gazebo/export_options.h"
 #include "gazebo/merged_models.h"
-#include "gazebo/surfaces.h"
+#include "gazebo/model_sdf.h"
+#include "gazebo/plant_surfaces.h"
 
 namespace plotscan::gazebo {
 

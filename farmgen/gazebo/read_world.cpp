@@ -7,10 +7,10 @@
 
 #include "core/error.h"
 #include "core/isolated.h"
-#include "gazebo/internal/geometry.h"
 #include "gazebo/internal/includes.h"
 #include "gazebo/internal/load_world.h"
-#include "gazebo/internal/resources.h"
+#include "gazebo/internal/resource_finder.h"
+#include "gazebo/internal/shape_cache.h"
 
 namespace plotscan::gazebo {
 namespace fs = std::filesystem;

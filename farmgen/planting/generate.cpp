@@ -13,7 +13,7 @@
 #include "core/list_of.h"
 #include "core/stage.h"
 #include "core/statistics.h"
-#include "farm/heights.h"
+#include "farm/true_heights.h"
 #include "farmfolder/plot_table.h"
 #include "planting/internal/plants.h"
 #include "planting/plot_layout.h"

@@ -28,7 +28,7 @@ int trial_number(std::size_t place, std::size_t trials);
 PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed, std::size_t place = 0);
 
 // The numbers of two plots that overlap by more than `share` of the smaller one, the lower number
-// first; nothing where no plots do.
+// first; absent where no plots do.
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
     const std::vector<farm::Plot>& plots, double share = 1e-6);
 

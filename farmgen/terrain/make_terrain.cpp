@@ -13,7 +13,7 @@
 #include "core/list_of.h"
 #include "mesh/mesh_import.h"
 #include "terrain/extent.h"
-#include "terrain/internal/bases.h"
+#include "terrain/internal/base_terrains.h"
 #include "terrain/internal/lattice.h"
 #include "terrain/internal/refine.h"
 

@@ -22,7 +22,7 @@ struct CoordinateUnits {
 // and us-ft.
 std::vector<std::string> unit_symbols();
 
-// Metres in the unit of that symbol; nothing for any other name.
+// Metres in the unit of that symbol; absent for any other name.
 std::optional<double> unit_named(const std::string& symbol);
 
 // "metres", "millimetres", "US survey feet", or "units of 0.3 m".

@@ -38,7 +38,7 @@ class TableText {
       if (header.find(separator) != std::string_view::npos) separator_ = separator;
   }
 
-  // The next record; nothing at the end of the text. InputError if it has not as many fields as the
+  // The next record; absent at the end of the text. InputError if it has not as many fields as the
   // first one.
   std::optional<CsvTable::Line> next() {
     skip_lines_without_fields();

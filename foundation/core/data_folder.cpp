@@ -35,12 +35,12 @@ fs::path own_file() {
   return fs::canonical(file.is_absolute() ? file : "/proc/self/exe", ignored);
 }
 
-std::optional<fs::path> told_folder() {
-  const char* told = std::getenv("PLOTSCAN_DATA");
-  if (told == nullptr || *told == '\0') return std::nullopt;
-  if (!holds_data(told))
-    throw InputError(told, "named by PLOTSCAN_DATA, is not Plotscan's data: worlds and models");
-  return told;
+std::optional<fs::path> stated_folder() {
+  const char* stated = std::getenv("PLOTSCAN_DATA");
+  if (stated == nullptr || *stated == '\0') return std::nullopt;
+  if (!holds_data(stated))
+    throw InputError(stated, "named by PLOTSCAN_DATA, is not Plotscan's data: worlds and models");
+  return stated;
 }
 
 std::optional<fs::path> installed_folder() {
@@ -57,7 +57,7 @@ std::optional<fs::path> installed_folder() {
 const std::optional<fs::path> kInstalled = installed_folder();
 
 std::optional<fs::path> known_folder() {
-  if (auto told = told_folder()) return told;
+  if (auto stated = stated_folder()) return stated;
   return kInstalled;
 }
 

@@ -47,7 +47,7 @@ struct UtmSystem {
 };
 
 // The system that "EPSG:<code>" names: UTM on WGS 84, ETRS89, NAD83, NAD83(2011), GDA94 and GDA2020
-// (codes as in PROJ's registry); nothing for any other system.
+// (codes as in PROJ's registry); absent for any other system.
 std::optional<UtmSystem> utm_system(const std::string& crs);
 
 // Whether "EPSG:<code>" is longitude and latitude on one of these datums.

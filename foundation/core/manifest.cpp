@@ -11,7 +11,7 @@
 #include <xxhash.h>
 
 #include "core/error.h"
-#include "core/format.h"
+#include "core/format_version.h"
 #include "core/json_text.h"
 #include "core/text_file.h"
 

@@ -31,7 +31,7 @@ struct Manifest {
       nlohmann::json::object();  // counts worth knowing without opening the files
 };
 
-// Writes folder/manifest.json with format (core/format.h), version, command, seed, options,
+// Writes folder/manifest.json with format (core/format_version.h), version, command, seed, options,
 // results, the inputs' names and hashes, and the hash of every other file below `folder` that is
 // not hidden.
 void write_manifest(const std::filesystem::path& folder, const Manifest& manifest);
@@ -49,7 +49,7 @@ std::vector<std::filesystem::path> unlisted_files(const std::filesystem::path& f
 nlohmann::json read_manifest(const std::filesystem::path& folder);
 
 // Says that the cloud is not what the estimate in the folder was made from: no input in its
-// manifest has the file's hash. Nothing where one has, or where there is no manifest.
+// manifest has the file's hash. Absent where one has, or where there is no manifest.
 std::optional<std::string> other_cloud_note(const std::filesystem::path& estimate,
                                             const std::filesystem::path& cloud);
 

@@ -10,24 +10,19 @@
 #include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
-#include "core/format.h"
+#include "core/format_version.h"
 #include "core/geodesy.h"
 #include "core/internal/rectangle_fit.h"
 #include "core/json_text.h"
 #include "core/list_of.h"
 #include "core/place_json.h"
+#include "core/stated_system.h"
 #include "core/text_file.h"
 
 namespace plotscan {
 namespace {
 
 using nlohmann::json;
-
-// Some hundred thousand plots; parsed, they take about fifteen times as much memory.
-constexpr std::uintmax_t kMostBytes = 64'000'000;
-
-// How "coordinate_system" begins in a file of write_plot_features_wgs84.
-constexpr std::string_view kDegreesStated = "WGS84 longitude, latitude";
 
 using Projection = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
 
@@ -182,18 +177,6 @@ std::optional<CoordinateUnits> units_of(const json& document, const std::filesys
   return units;
 }
 
-// The system that a file names in its member crs: "EPSG:<code>" if it has a code; "" if it names
-// none, or a local one.
-std::string stated_crs(const json& document) {
-  if (!document.contains("crs") || !document["crs"].is_object()) return "";
-  const json properties = document["crs"].value("properties", json::object());
-  const std::string name = properties.is_object() ? properties.value("name", "") : "";
-  if (name.starts_with("LOCAL_CS") || name.starts_with("ENGCRS")) return "";
-  const std::size_t code = name.find_last_of(':');
-  const bool is_epsg = name.find("EPSG:") != std::string::npos && code != std::string::npos;
-  return is_epsg ? "EPSG:" + name.substr(code + 1) : name;
-}
-
 bool within_degrees(const json& coordinates) {
   // Only lists: a loop over a JSON text would visit the text itself, endlessly.
   if (!coordinates.is_array()) return false;
@@ -206,11 +189,11 @@ bool within_degrees(const json& coordinates) {
 
 // Whether positions are longitude and latitude. `over_utm`: the cloud is in metres of UTM.
 bool is_in_degrees(const json& document, bool over_utm) {
-  const std::string stated = stated_crs(document);
-  if (!stated.empty()) return is_geographic(stated) || stated.find("CRS84") != std::string::npos;
-  if (document.contains("coordinate_system") && document["coordinate_system"].is_string())
-    return document["coordinate_system"].get_ref<const std::string&>().starts_with(kDegreesStated);
-  if (!over_utm) return false;
+  const StatedSystem stated = stated_system(document);
+  if (stated.in_degrees) return true;
+  const bool says_otherwise = !stated.crs.empty() || (document.contains("coordinate_system") &&
+                                                      document["coordinate_system"].is_string());
+  if (says_otherwise || !over_utm) return false;
   return std::ranges::all_of(document.at("features"), [](const json& feature) {
     return feature.contains("geometry") && feature["geometry"].is_object() &&
            within_degrees(feature["geometry"].value("coordinates", json::array()));
@@ -235,6 +218,35 @@ Projection from_degrees(const UtmZone& zone) {
   };
 }
 
+// The first position in nested lists of them; null where there is none.
+const json& first_position(const json& coordinates) {
+  static const json kNone;
+  if (!coordinates.is_array() || coordinates.empty()) return kNone;
+  return coordinates[0].is_number() ? coordinates : first_position(coordinates[0]);
+}
+
+// Throws where positions lie in the zone only with longitude and latitude in the wrong order.
+void require_longitude_first(const json& document, const std::filesystem::path& path,
+                             const UtmZone& zone) {
+  constexpr double kNear_deg = 6;  // of the central meridian: the zone and a half beside it
+  const auto is_near = [&](double longitude_deg) {
+    return std::abs(std::remainder(longitude_deg - zone.central_meridian_deg(), 360.0)) <=
+           kNear_deg;
+  };
+  for (const json& feature : document.at("features")) {
+    if (!feature.contains("geometry") || !feature["geometry"].is_object()) continue;
+    const json position = first_position(feature["geometry"].value("coordinates", json()));
+    if (position.size() < 2 || !position[1].is_number()) continue;
+    const double first = position[0].get<double>(), second = position[1].get<double>();
+    if (is_near(first) || !is_near(second)) return;
+    throw InputError(
+        path,
+        "has longitude {:g} and latitude {:g}, far from UTM zone {} of the cloud: they "
+        "are probably swapped; a map has the longitude first",
+        first, second, zone.number);
+  }
+}
+
 Projection from_units(double unit_m) {
   return [unit_m](const Eigen::Vector2d& position) -> Eigen::Vector2d { return unit_m * position; };
 }
@@ -244,17 +256,20 @@ Positions positions_of(const json& document, const std::filesystem::path& path,
                        const std::string& crs, double unit_m) {
   const std::optional<UtmSystem> utm = unit_m == 1 ? utm_system(crs) : std::nullopt;
   if (is_in_degrees(document, utm.has_value())) {
-    if (utm) return {.metres = from_degrees(utm->zone), .in_degrees = true};
+    if (utm) {
+      require_longitude_first(document, path, utm->zone);
+      return {.metres = from_degrees(utm->zone), .in_degrees = true};
+    }
     throw InputError(path,
                      "is in longitude and latitude, which are converted only to UTM's metres, {}; "
                      "give the map in the cloud's coordinates",
                      crs.empty() ? "and no such system is known here (estimator run: --crs)"
                                  : "and the cloud is in " + crs);
   }
-  if (!may_be_same(stated_crs(document), crs)) {
+  if (const std::string stated = stated_system(document).crs; !may_be_same(stated, crs)) {
     throw InputError(
         path, "is in the coordinate system {}, and the cloud is in {}; give the map in the latter",
-        stated_crs(document), crs);
+        stated, crs);
   }
   const std::optional<CoordinateUnits> units = units_of(document, path);
   return {.metres = from_units(units ? units->horizontal_m : unit_m)};
@@ -268,11 +283,6 @@ PlacedPlots placed_plots(const json& document, const std::filesystem::path& path
   for (const json& feature : document.at("features"))
     placed.plots.push_back(read_feature(feature, path, placed.plots.size() + 1, positions));
   return placed;
-}
-
-[[noreturn]] void fail_foreign(const std::filesystem::path& path, const json::exception& error) {
-  throw InputError(path, "is no map of plots, a GeoJSON FeatureCollection of polygons: {}",
-                   json_reason(error));
 }
 
 }  // namespace
@@ -335,16 +345,7 @@ std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {
 
 PlacedPlots read_plot_features(const std::filesystem::path& path, const std::string& crs,
                                double unit_m) {
-  require_file(path);
-  if (std::filesystem::file_size(path) > kMostBytes) {
-    throw InputError(path, "has {} bytes; plots are read from up to {}",
-                     std::filesystem::file_size(path), kMostBytes);
-  }
-  try {
-    return plot_features_of(json::parse(read_json_text(path)), path, crs, unit_m);
-  } catch (const json::exception& error) {
-    fail_foreign(path, error);
-  }
+  return plot_features_of(read_map_document(path), path, crs, unit_m);
 }
 
 PlacedPlots plot_features_of(const json& document, const std::filesystem::path& path,
@@ -352,7 +353,7 @@ PlacedPlots plot_features_of(const json& document, const std::filesystem::path& 
   try {
     return placed_plots(document, path, crs, unit_m);
   } catch (const json::exception& error) {
-    fail_foreign(path, error);
+    fail_no_map(path, error);
   }
 }
 

@@ -18,12 +18,12 @@ class PlotId {
   // Implicit: programs number the plots that they find.
   PlotId(std::uint64_t number = 0) : text_(std::to_string(number)), is_number_(true) {}
   explicit PlotId(std::string text) : text_(std::move(text)) {}
-  // A JSON value as an id: a finite number or a text that is not blank, else nothing.
+  // A JSON value as an id: a finite number or a text that is not blank, else absent.
   static std::optional<PlotId> from(const nlohmann::json& value);
 
   const std::string& text() const { return text_; }
   friend void to_json(nlohmann::json& document, const PlotId& id);
-  // Throws InputError where `from` gives nothing.
+  // Throws InputError where that is absent.
   friend void from_json(const nlohmann::json& value, PlotId& id);
 
   friend bool operator==(const PlotId& a, const PlotId& b) { return a.text_ == b.text_; }

@@ -9,7 +9,7 @@
 namespace plotscan {
 
 // A stage of long work. Its destructor logs its name, the seconds it took, the processor seconds
-// that the whole program used meanwhile, and what found() was told. It logs to spdlog's logger
+// that the whole program used meanwhile, and the text that found() got. It logs to spdlog's logger
 // "plotscan", which programs register and -v shows; without that logger nothing is logged.
 class Stage {
  public:

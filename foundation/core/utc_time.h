@@ -10,7 +10,7 @@ namespace plotscan {
 // An instant of Coordinated Universal Time; leap seconds are not counted (as in Unix time).
 using UtcTime = std::chrono::sys_time<std::chrono::microseconds>;
 
-// The instant in a text like "2026-06-01T10:00:00Z", seconds with up to six decimals; nothing if
+// The instant in a text like "2026-06-01T10:00:00Z", seconds with up to six decimals; absent if
 // the text is not such an instant of the years 1980 to 2099.
 std::optional<UtcTime> parse_utc(const std::string& text);
 // The text of an instant in that form, with as many decimals as needed.

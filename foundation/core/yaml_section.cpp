@@ -8,7 +8,7 @@
 #include <yaml-cpp/eventhandler.h>
 
 #include "core/error.h"
-#include "core/format.h"
+#include "core/format_version.h"
 #include "core/nearest_name.h"
 #include "core/parse.h"
 #include "core/printable.h"

@@ -57,7 +57,8 @@ class YamlDocument {
 // yaml-cpp's types).
 class YamlSection {
  public:
-  // Parses the file, checks its optional key "format" (core/format.h), and applies the overrides
+  // Parses the file, checks its optional key "format" (core/format_version.h), and applies the
+  // overrides
   // ("dotted.path=value", list entries by index from 0; the value is YAML). The document must be a
   // map.
   static YamlSection load(const std::filesystem::path& file,
@@ -121,7 +122,7 @@ class YamlSection {
   std::string path_of(const std::string& key) const;
   // Checks the document's key "format" and removes it.
   void take_format();
-  // The scalar at the key; nothing if the key is missing and not required.
+  // The scalar at the key; absent if the key is missing and not required.
   std::optional<std::string> scalar(const std::string& key, bool required) const;
 
   std::shared_ptr<YamlDocument> document_;

@@ -25,7 +25,7 @@ struct PageSummary {
   std::size_t plots = 0;
   std::uint64_t read = 0;               // points of the cloud
   std::uint64_t shown = 0;              // of these
-  std::vector<std::string> notes = {};  // what the reader of the page is told
+  std::vector<std::string> notes = {};  // what readers of the page should know
 };
 
 // Throws InputError unless the page lies apart from the inputs and its name ends in .html or .htm.

@@ -75,7 +75,8 @@ FieldEstimate outer(const estimate::Estimate& estimate) {
 }
 
 estimate::Estimate inner(const FieldEstimate& estimate) {
-  return {.method = estimate.method, .plots = list_of(estimate.plots, inner_plot)};
+  return {
+      .method = estimate.method, .plots = list_of(estimate.plots, inner_plot), .crs = estimate.crs};
 }
 
 }  // namespace plotscan::boundary

@@ -13,7 +13,7 @@ namespace {
 
 double wrap_angle(double angle_rad) { return std::remainder(angle_rad, 2 * kPi); }
 
-// The heading of a nose that points along the way; nothing if the way is vertical.
+// The heading of a nose that points along the way; absent if the way is vertical.
 std::optional<double> heading_along(const Eigen::Vector3d& way) {
   if (way.head<2>().norm() <= 1e-9 * way.norm()) return std::nullopt;
   return std::atan2(way.y(), way.x());

@@ -14,9 +14,13 @@ constexpr Range kAltitude_m{0.5, 120};
 constexpr Range kHeading_deg{-360, 360};
 constexpr Range kHold_s{0, 3600};
 
-StatedWaypoint read_waypoint(const YamlSection& section) {
+// Asked once all is read: a mistyped key is named as such, not as one that lacks.
+void require_one_height(const YamlSection& section) {
   if (section.has("z_m") == section.has("altitude_m"))
     section.fail("z_m", "or altitude_m has to be given, one of the two");
+}
+
+StatedWaypoint read_waypoint(const YamlSection& section) {
   StatedWaypoint stated;
   Waypoint& waypoint = stated.waypoint;
   waypoint.position_m = {section.number("x_m", kPlace_m), section.number("y_m", kPlace_m),
@@ -38,6 +42,7 @@ std::vector<StatedWaypoint> read_waypoints(const std::filesystem::path& file) {
   if (sections.size() < 2) root.fail("waypoints", "must list at least two");
   std::vector<StatedWaypoint> waypoints = list_of(sections, read_waypoint);
   root.refuse_unread();
+  for (const YamlSection& section : sections) require_one_height(section);
   if (waypoints.back().waypoint.speed_m_s)
     sections.back().fail("speed_m_s", "is of the way from a waypoint on, and this is the last");
   return waypoints;

@@ -29,7 +29,7 @@ std::vector<Eigen::Vector3d> plan_strips(const Site& site, const Scene& scene,
 std::vector<flight::Waypoint> plan_waypoints(const Scene& scene, const std::filesystem::path& file);
 
 // The height of the highest ground below or above the place, whatever grows or stands over it,
-// world frame, metres; nothing where there is none.
+// world frame, metres; absent where there is none.
 std::optional<double> ground_at(const Scene& scene, const Eigen::Vector3d& place);
 
 }  // namespace plotscan::lidar

@@ -31,33 +31,29 @@ const std::vector<FlySetting>& fly_settings() {
        .flag = "--altitude",
        .help = "metres above the mean ground of the plots, 0.5 to 120",
        .value = NumberSetting{{0.5, 120}, member<&FlyOptions::altitude_m>},
-       .plans_flight = true,
-       .plans_strips = true},
+       .plans = Plan::strips},
       {.key = "speed_m_s",
        .flag = "--speed",
        .help = "of flight, metres per second, 0.01 to 6",
        .value = NumberSetting{{0.01, 6}, member<&FlyOptions::speed_m_s>},
-       .plans_flight = true},
+       .plans = Plan::flight},
       {.key = "spacing_m",
        .flag = "--spacing",
        .help = "metres between neighbouring strips, 0.1 to 1000",
        .value = NumberSetting{{0.1, 1000}, member<&FlyOptions::spacing_m>},
-       .plans_flight = true,
-       .plans_strips = true},
+       .plans = Plan::strips},
       {.key = "pattern",
        .flag = "--pattern",
        .help = "lawnmower: parallel strips; crosshatch: also strips across them; single: one strip",
        .value = TextSetting{{"lawnmower", "crosshatch", "single"}, member<&FlyOptions::pattern>},
-       .plans_flight = true,
-       .plans_strips = true},
+       .plans = Plan::strips},
       {.key = "heading_deg",
        .flag = "--heading",
        .help =
            "of the strips, degrees counter-clockwise from east, -360 to 360 (default: along the "
            "longer side of the field)",
        .value = OptionalSetting{{-360, 360}, member<&FlyOptions::heading_deg>},
-       .plans_flight = true,
-       .plans_strips = true},
+       .plans = Plan::strips},
       {.key = "spin_hz",
        .flag = "--spin",
        .help =
@@ -206,7 +202,8 @@ const std::vector<FlySetting>& fly_settings() {
 }
 
 bool counts(const FlySetting& setting, const FlyOptions& options) {
-  return !(options.flight && setting.plans_flight) && !(options.waypoints && setting.plans_strips);
+  return !(options.flight && setting.plans != Plan::none) &&
+         !(options.waypoints && setting.plans == Plan::strips);
 }
 
 nlohmann::json settings_json(const FlyOptions& options) {

@@ -19,14 +19,17 @@ using WholeSetting = plotscan::WholeSetting<FlyOptions>;
 using VectorSetting = plotscan::VectorSetting<FlyOptions>;
 using TextSetting = plotscan::TextSetting<FlyOptions>;
 
+// What of a flight a setting plans. No plan has an effect when a trajectory is given; one of strips
+// has none when waypoints are given.
+enum class Plan { none, flight, strips };
+
 // One option of a flight. The command line, suites and manifests all take it from this one table.
 struct FlySetting {
   std::string key;   // in suites and manifests, "altitude_m"
   std::string flag;  // on the command line, "--altitude"
   std::string help;  // unit, range, meaning
   std::variant<NumberSetting, OptionalSetting, WholeSetting, VectorSetting, TextSetting> value;
-  bool plans_flight = false;                // has no effect when a trajectory is given
-  bool plans_strips = false;                // has no effect when waypoints are given
+  Plan plans = Plan::none;
   std::string group = "Flight and sensor";  // heading in --help
 };
 

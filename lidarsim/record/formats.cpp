@@ -5,8 +5,8 @@
 
 #include "core/text.h"
 #include "record/internal/las_file.h"
-#include "record/ros/points.h"
 #include "record/ros/recorder.h"
+#include "record/ros/ros_points.h"
 #include "record/velodyne/pcap_format.h"
 #include "scan/cloud_writer.h"
 

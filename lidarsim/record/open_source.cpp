@@ -44,7 +44,7 @@ FlightRecord flight_record(const FlightOptions& options) {
           .start = parsed_start(options.start_utc.value_or(kStart))};
 }
 
-std::optional<FlightRecord> told_flight(const SourceOptions& options) {
+std::optional<FlightRecord> given_flight(const SourceOptions& options) {
   if (!options.flight) return std::nullopt;
   if (!options.flight->trajectory)
     throw InputError(
@@ -56,6 +56,7 @@ Source open_scan_folder(const fs::path& folder, const SourceOptions& options) {
   const FlightRecord flight = scan_flight(folder, options);
   Source source = find_format("cloud.pcd")->open(folder / "cloud.pcd", {.flight = flight});
   source.path = folder;
+  source.of_scan_folder = true;
   if (source.info.start) source.info.start = flight.start;
   return source;
 }
@@ -117,7 +118,7 @@ void make_relative(Source& source) {
 }
 
 // Shifts times so that the trajectory begins at 0 and the points' times count from there.
-void count_from_first_pose(Source& source, bool is_recording, bool start_is_told) {
+void count_from_first_pose(Source& source, bool is_recording, bool start_is_given) {
   if (!source.flight) return;
   FlightRecord& flight = *source.flight;
   const double begin_s = flight.reported.start_s();
@@ -126,8 +127,8 @@ void count_from_first_pose(Source& source, bool is_recording, bool start_is_told
     flight.start = source.info.start.value_or(flight.start);
     return;
   }
-  if (start_is_told || source.info.start)
-    flight.start = later(start_is_told ? flight.start : *source.info.start, begin_s);
+  if (start_is_given || source.info.start)
+    flight.start = later(start_is_given ? flight.start : *source.info.start, begin_s);
   source.info.start = flight.start;
   if (begin_s == 0 || std::ranges::count(source.info.fields, "time") == 0) return;
   source.stream = [stream = source.stream, begin_s](const scan::PointSink& sink) {
@@ -175,9 +176,9 @@ Source open_source(const fs::path& in, const SourceOptions& options) {
     throw InputError(in, "--topic is for bags and MCAP files; a {} has no topics", format->name);
   require_told_of_it(in, *format, options.flight);
   Source source =
-      format->open(in, {.flight = told_flight(options),
-                        .sensor_told = options.flight && options.flight->sensor.has_value(),
-                        .spin_told = options.flight && options.flight->spin_hz.has_value(),
+      format->open(in, {.flight = given_flight(options),
+                        .sensor_given = options.flight && options.flight->sensor.has_value(),
+                        .spin_given = options.flight && options.flight->spin_hz.has_value(),
                         .topic = options.topic});
   make_relative(source);
   count_from_first_pose(source, format->is_recording,

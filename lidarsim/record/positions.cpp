@@ -38,18 +38,18 @@ bool are_recordings(const CloudFiles& cloud) {
 }
 
 // Opens a recording so that its points are placed in the world.
-Source open_recording(const fs::path& file, const RecordingOptions& told) {
-  if (!find_format(file)->has_topics && !told.trajectory) {
+Source open_recording(const fs::path& file, const RecordingOptions& given) {
+  if (!find_format(file)->has_topics && !given.trajectory) {
     throw InputError(file,
                      "does not say where the sensor was; give --trajectory FILE (TUM text or "
                      "trajectory.csv), and --mount where it is not that of lidarsim fly");
   }
   std::optional<FlightOptions> flight;
-  if (told.trajectory || told.sensor || told.mount_rpy_deg) {
-    flight = {.trajectory = told.trajectory, .sensor = told.sensor};
-    if (told.mount_rpy_deg) flight->mount_rpy_deg = *told.mount_rpy_deg;
+  if (given.trajectory || given.sensor || given.mount_rpy_deg) {
+    flight = {.trajectory = given.trajectory, .sensor = given.sensor};
+    if (given.mount_rpy_deg) flight->mount_rpy_deg = *given.mount_rpy_deg;
   }
-  return open_source(file, {.flight = flight, .topic = told.topic});
+  return open_source(file, {.flight = flight, .topic = given.topic});
 }
 
 std::vector<Source> open_recordings(const CloudFiles& cloud) {
@@ -70,7 +70,7 @@ scan::CloudSystem system_of(const CloudFiles& cloud, const std::vector<Source>& 
   scan::CloudSystem system;
   std::vector<std::string> notes;
   for (const Source& source : sources) {
-    system = scan::told_system(cloud, source.path, first_place(source));
+    system = scan::users_system(cloud, source.path, first_place(source));
     notes.insert(notes.end(), source.notes.begin(), source.notes.end());
   }
   system.notes.insert(system.notes.end(), notes.begin(), notes.end());

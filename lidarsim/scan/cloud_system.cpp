@@ -126,7 +126,7 @@ void note_web_mercator(const std::filesystem::path& cloud, const CloudLayout& la
       std::cosh(first_point(cloud, layout).y() / kRadius_m)));
 }
 
-CloudSystem stated_system(const std::filesystem::path& cloud, const CloudLayout& layout,
+CloudSystem header_system(const std::filesystem::path& cloud, const CloudLayout& layout,
                           const CloudFiles& given) {
   CloudSystem system{
       .crs = layout.crs(), .units = given.units.value_or(layout.units), .notes = layout.notes};
@@ -167,7 +167,7 @@ CloudSystem read_cloud_system(const CloudFiles& cloud) {
   std::optional<CloudSystem> first;
   for (const std::filesystem::path& file : cloud.files) {
     const CloudLayout layout = read_cloud_header(file);
-    const CloudSystem system = (cloud.crs ? given_system : stated_system)(file, layout, cloud);
+    const CloudSystem system = (cloud.crs ? given_system : header_system)(file, layout, cloud);
     if (!first) {
       first = system;
       continue;
@@ -184,8 +184,8 @@ CloudSystem read_cloud_system(const CloudFiles& cloud) {
   return *first;
 }
 
-CloudSystem told_system(const CloudFiles& cloud, const std::filesystem::path& name,
-                        const std::optional<Eigen::Vector3d>& first) {
+CloudSystem users_system(const CloudFiles& cloud, const std::filesystem::path& name,
+                         const std::optional<Eigen::Vector3d>& first) {
   CloudSystem system{.units = cloud.units.value_or(CoordinateUnits{})};
   note_units(true, system);
   if (!cloud.crs) return system;

@@ -36,8 +36,8 @@ CloudSystem read_cloud_system(const CloudFiles& cloud);
 
 // The system of positions in metres whose file states none: the user's, checked against a first
 // position if there is one. Throws InputError as above; messages call the file `name`.
-CloudSystem told_system(const CloudFiles& cloud, const std::filesystem::path& name,
-                        const std::optional<Eigen::Vector3d>& first);
+CloudSystem users_system(const CloudFiles& cloud, const std::filesystem::path& name,
+                         const std::optional<Eigen::Vector3d>& first);
 
 // A system's name for people: a code as it is, or the name that well-known text begins with.
 std::string crs_name(const std::string& crs);

@@ -11,7 +11,7 @@ namespace plotscan::scan {
 
 // Coordinate systems as well-known text (OGC 01-009), as LAS 1.4 needs them.
 
-// The world frame: east, north, up, metres, origin at the farm's centre.
+// The world frame of our own scans: east, north, up, metres, origin at the farm's centre.
 std::string local_crs_wkt();
 
 // WGS 84 / UTM in the zone, EPSG 326xx or 327xx, with heights over the ellipsoid.

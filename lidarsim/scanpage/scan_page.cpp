@@ -67,7 +67,7 @@ std::vector<report::Fact> facts_of(const fs::path& scan, const report::ShownClou
   return facts;
 }
 
-// The ground fitted under a cloud's shown points; nothing if they show none.
+// The ground fitted under a cloud's shown points; absent if they show none.
 std::optional<report::ShownGrid> fitted_ground(const report::ShownCloud& cloud, int threads) {
   const std::vector<Eigen::Vector3f> places = list_of(cloud.points, &report::ShownPoint::place);
   try {
@@ -84,16 +84,16 @@ report::PageSummary write_scan_page(const PageOptions& options, const ProgressRe
   if (options.plots) inputs.push_back(*options.plots);
   report::require_page(options.html, inputs);
   OutputFile file(options.html, options.replace);
-  const auto tell = [&](double share) {
+  const auto report_share = [&](double share) {
     if (progress) progress(share);
   };
   report::ShownField field{.name = report::shown_name(options.scan)};
   field.plots = read_plots(options.plots);
   ShownScan scan = read_shown_scan(options.scan, {.most = options.points, .source = options.source},
-                                   [&](double share) { tell(kRead * share); });
+                                   [&](double share) { report_share(kRead * share); });
   field.facts = facts_of(options.scan, scan.cloud);
   field.ground = fitted_ground(scan.cloud, options.threads);
-  tell(kFitted);
+  report_share(kFitted);
   if (!field.ground)
     field.notes.emplace_back("No ground could be fitted: heights count from the lowest point.");
   field.path = std::move(scan.path);
@@ -101,7 +101,7 @@ report::PageSummary write_scan_page(const PageOptions& options, const ProgressRe
   report::note_cloud_elsewhere(field, field.name);
   auto summary = report::write_field_page(file.path(), "scan", "Scan " + field.name, field);
   file.commit();
-  tell(1);
+  report_share(1);
   return summary;
 }
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "strata/beside.h"
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
 #include <gtest/gtest.h>
+
+#include "strata/beside_plots.h"
 
 namespace plotscan::strata {
 namespace {

@@ -17,6 +17,19 @@ def make(farmbench, folder, threads):
     subprocess.run([farmbench, "export", "smoke", "--dataset", "-o", folder, "-j", str(threads), "-q"], check=True)
 
 
+def kitti_poses(sequence):
+    """Poses of the lidar as SemanticKITTI's loaders make them: inv(Tr) pose Tr, from KITTI's two files."""
+    calibration = {}
+    for line in (sequence / "calib.txt").read_text().splitlines():
+        key, numbers = line.split(":")
+        calibration[key] = np.vstack([np.array(numbers.split(), float).reshape(3, 4), [0, 0, 0, 1]])
+    assert list(calibration) == ["P0", "P1", "P2", "P3", "Tr"]
+    lidar = calibration["Tr"]
+    for line in (sequence / "poses.txt").read_text().splitlines():
+        pose = np.vstack([np.array(line.split(), float).reshape(3, 4), [0, 0, 0, 1]])
+        yield (np.linalg.inv(lidar) @ pose @ lidar)[:3]
+
+
 def load(sequence):
     """World positions, classes, plots and plants of a sequence, all scans together."""
     poses = np.loadtxt(sequence / "poses.txt", ndmin=2).reshape(-1, 3, 4)
@@ -24,6 +37,7 @@ def load(sequence):
     scans = sorted((sequence / "velodyne").iterdir())
     assert len(poses) == len(times) == len(scans)
     assert np.all(np.diff(times) > 0)
+    assert np.allclose(poses, list(kitti_poses(sequence)), atol=0)
     worlds, labels, plants = [], [], []
     for scan, pose in zip(scans, poses):
         assert np.allclose(pose[:, :3] @ pose[:, :3].T, np.eye(3), atol=1e-9)

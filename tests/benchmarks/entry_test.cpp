@@ -200,7 +200,7 @@ TEST_F(Scoring, TheTrueBoxesAreNoFind) {
     make_farm({each.suite_case, each.seed, made, 1});
     fields.push_back(
         {{"field", each.code},
-         {"farm_sha256", told_farm_sha256(each.code, sha256_of_folder(made / "farm" / "truth"))},
+         {"farm_sha256", blinded_farm_sha256(each.code, sha256_of_folder(made / "farm" / "truth"))},
          {"sha256", json::object()}});
   }
   write("task.json", json{{"boxes_given", true}, {"fields", fields}}.dump());
@@ -217,6 +217,24 @@ TEST_F(Scoring, BoxesWithoutHeightsAreScoredAsBoxes) {
   EXPECT_EQ(row.boxes.extra, 1U);
   EXPECT_TRUE(std::isnan(row.height.rmse_m));
   EXPECT_EQ(scored.apart, std::vector<std::string>{fields_[0].code});
+}
+
+// Centimetres under the names of metres, in the first field alone.
+TEST_F(Scoring, HintsAtCentimetres) {
+  hand_in_lattice();
+  EXPECT_TRUE(score_submission(options()).hints.empty());
+  const std::string file = fields_[0].code + ".geojson";
+  json map = json::parse(read_text(submission_ / file));
+  for (json& plot : map["features"]) {
+    for (auto& [name, value] : plot["properties"].items())
+      if (name.find("height_") != std::string::npos || name.find("canopy_") != std::string::npos)
+        value = 100 * value.get<double>();
+  }
+  write(file, map.dump());
+  const auto hints = score_submission(options()).hints;
+  ASSERT_EQ(hints.size(), 1U);
+  EXPECT_THAT(hints.begin()->first, HasSubstr("about 100 times the true ones"));
+  EXPECT_EQ(hints.begin()->second, std::vector<std::string>{fields_[0].code});
 }
 
 TEST_F(Scoring, RefusesAllThatIsWrongAtOnceAndWritesNothing) {

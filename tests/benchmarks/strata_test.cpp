@@ -17,10 +17,10 @@
 #include "strata/field_plan.h"
 #include "strata/kept_field.h"
 #include "strata/measured_field.h"
-#include "strata/positions.h"
+#include "strata/measurement_table.h"
 #include "strata/scenery.h"
-#include "strata/table.h"
-#include "strata/tally.h"
+#include "strata/stratum_tally.h"
+#include "strata/thinned_cloud.h"
 #include "temporary_folder.h"
 
 namespace plotscan::strata {
@@ -191,9 +191,9 @@ TEST(PlanField, TellsTheWidthOfPlotsWithoutAGap) {
   for (int index = 0; index < 8; ++index) {
     const FieldPlan plan = plan_field("test", "gapless", index, kSources);
     EXPECT_THAT(plan.overrides, ::testing::Contains("plots.gap_width_m=0"));
-    EXPECT_NE(plan.told, Told::nothing);
+    EXPECT_NE(plan.stated, Stated::nothing);
   }
-  EXPECT_EQ(plan_field("test", "ordinary", 0, kSources).told, Told::nothing);
+  EXPECT_EQ(plan_field("test", "ordinary", 0, kSources).stated, Stated::nothing);
 }
 
 TEST(PlanField, APanelHasDwarfsAndGiants) {
@@ -277,7 +277,7 @@ TEST(Tally, PoolsTheFarmsOfAStratum) {
   EXPECT_DOUBLE_EQ(all.seconds_per_million_points, 1.5);
 }
 
-// The estimator is given what is told of the plots, and what it finds is counted.
+// The estimator is given what is stated of the plots, and what it finds is counted.
 TEST(MeasureField, CountsWhatTheEstimatorFinds) {
   const TemporaryFolder folder;
   FieldPlan plan = plan_field("test", "paper", 0, kSources);
@@ -298,12 +298,13 @@ TEST(MeasureField, CountsWhatTheEstimatorFinds) {
   EXPECT_TRUE(measured.false_confidences.empty());
   EXPECT_EQ(measured.box_figures, 48U);
   EXPECT_GE(measured.box_figures_inside, 36U);
-  const MeasuredField told = measure_field("paper", 3, field, {.told = Told::sides, .threads = 2});
-  EXPECT_EQ(told.true_confidences.size(), 12U);
+  const MeasuredField stated =
+      measure_field("paper", 3, field, {.stated = Stated::sides, .threads = 2});
+  EXPECT_EQ(stated.true_confidences.size(), 12U);
   std::size_t told_figures = 0;
-  for (const score::PlotScore& plot : told.score.plots)
+  for (const score::PlotScore& plot : stated.score.plots)
     told_figures += plot.found.has_value() ? 2 : 0;
-  EXPECT_GE(told.box_figures_inside, told_figures) << "sides that were told are right";
+  EXPECT_GE(stated.box_figures_inside, told_figures) << "sides that were stated are right";
 }
 
 TEST(MeasureField, SaysWhyThereIsNoEstimate) {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "farmbench/table.h"
-
 #include <cmath>
 #include <functional>
 
@@ -9,8 +7,10 @@
 
 #include "core/csv.h"
 #include "core/error.h"
+#include "farmbench/internal/chosen_rows.h"
 #include "farmbench/internal/suite_page.h"
 #include "farmbench/reports.h"
+#include "farmbench/results_table.h"
 #include "farmbench/run.h"
 #include "temporary_folder.h"
 

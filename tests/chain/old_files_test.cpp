@@ -7,7 +7,7 @@
 #include <gtest/gtest.h>
 
 #include "core/error.h"
-#include "core/format.h"
+#include "core/format_version.h"
 #include "small_farm.h"
 
 namespace plotscan::testing {

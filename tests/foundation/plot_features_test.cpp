@@ -159,6 +159,31 @@ TEST(PlotFeatures, ConvertsLongitudeAndLatitude) {
   }
 }
 
+// Germany and south-eastern Australia with the latitude first; what lies as near both ways is taken
+// as it stands.
+TEST(PlotFeatures, SuspectsLatitudesThatStandFirst) {
+  const testing::TemporaryFolder folder;
+  const auto refusal = [&](const std::string& ring, const std::string& crs) {
+    std::string text = foreign(ring);
+    text.insert(1, R"("crs":{"properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)");
+    return testing::message_of<InputError>(
+        [&] { read_plot_features(folder.write("lonlat.geojson", text), crs); });
+  };
+  const std::string german =
+      "[48.7,9.2],[48.7,9.20002],[48.70004,9.20002],[48.70004,9.2],[48.7,9.2]";
+  EXPECT_THAT(
+      refusal(german, "EPSG:32632"),
+      ::testing::HasSubstr("has longitude 48.7 and latitude 9.2, far from UTM zone 32 of the "
+                           "cloud: they are probably swapped"));
+  const std::string australian =
+      "[-33.8,151.2],[-33.8,151.20002],[-33.80004,151.20002],[-33.80004,151.2],[-33.8,151.2]";
+  EXPECT_THAT(refusal(australian, "EPSG:32756"), ::testing::HasSubstr("probably swapped"));
+  const std::string nigerian = "[9,10],[9.00002,10],[9.00002,10.00004],[9,10.00004],[9,10]";
+  std::string text = foreign(nigerian);
+  EXPECT_EQ(read_plot_features(folder.write("lonlat.geojson", text), "EPSG:32632").plots.size(),
+            1U);
+}
+
 TEST(PlotFeatures, TakesDegreesForMetresNowhere) {
   const testing::TemporaryFolder folder;
   const auto file = [&](const std::string& members) {

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/text.h"
 
+#include <limits>
+
 #include <gtest/gtest.h>
 
+#include "core/column_text.h"
 #include "core/list_of.h"
 
 namespace plotscan {
@@ -41,6 +44,14 @@ TEST(Text, LosesTheBlanksAtItsEndsAlone) {
 TEST(Text, HasItsEscapesInOneGo) {
   EXPECT_EQ(with_escapes("a\\'b", {{'\\', "\\\\"}, {'\'', "\\'"}}), "a\\\\\\'b");
   EXPECT_EQ(with_escapes("ab", {{'a', "b"}, {'b', ""}}), "b");
+}
+
+TEST(ColumnText, NeverLeavesItsColumn) {
+  EXPECT_EQ(column_text(-0.05, 8), "   -0.05");
+  EXPECT_EQ(column_text(1.5, 7, true), "  +1.50");
+  EXPECT_EQ(column_text(-123456.78, 8), " -123457");
+  EXPECT_EQ(column_text(-3987654.3, 8), "  -4e+06");
+  EXPECT_EQ(column_text(std::numeric_limits<double>::quiet_NaN(), 5), "    -");
 }
 
 TEST(ListOf, GivesAMemberOrWhatAFunctionMakesOfEachItem) {

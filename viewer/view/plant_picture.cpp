@@ -26,9 +26,9 @@
 #include "core/list_of.h"
 #include "view/internal/camera.h"
 #include "view/internal/display.h"
+#include "view/internal/mesh_surfaces.h"
 #include "view/internal/plant_layout.h"
 #include "view/internal/scale.h"
-#include "view/internal/surfaces.h"
 #include "view/internal/window.h"
 
 namespace plotscan::view {

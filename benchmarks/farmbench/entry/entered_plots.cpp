@@ -29,7 +29,7 @@ const json* stated(const EnteredRow& row, const std::string& name) {
   return found == row.properties.end() || found->is_null() ? nullptr : &*found;
 }
 
-// A property that has to be a number where it is there; nothing where it is not one.
+// A property that has to be a number where it is there; absent where it is not one.
 std::optional<double> number_in(const EnteredRow& row, const std::string& name,
                                 Problems& problems) {
   const json* value = stated(row, name);

@@ -18,7 +18,7 @@ class Problems {
   void raise(const std::filesystem::path& folder) const;
 
  private:
-  std::vector<std::string> told_;  // at most 100
+  std::vector<std::string> kept_;  // at most 100
   std::size_t count_ = 0;
 };
 

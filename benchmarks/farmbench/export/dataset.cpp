@@ -122,7 +122,9 @@ std::string card(const json& document, const std::string& command) {
          "`sequences/NN/velodyne/NNNNNN.bin` (float32 x, y, z, intensity 0 to 1, in the lidar's "
          "frame), `labels/NNNNNN.label` (uint32: class in the lower 16 bits, plot in the upper "
          "ones, 0 none), `plants/NNNNNN.plant` (uint32: plant, 0 none), `poses.txt` (world from "
-         "lidar, a row of 3 x 4 numbers a scan), `times.txt` (seconds). A scan is one turn of the "
+         "lidar, a row of 3 x 4 numbers a scan), `calib.txt` (KITTI's; Tr is the identity, and "
+         "there "
+         "are no cameras), `times.txt` (seconds). A scan is one turn of the "
          "sensor. `dataset.json` has the classes, the sequences, their splits and counts, and the "
          "plots' boxes and heights in the world's frame. Plotscan's docs/dataset.md says more."
          "\n\n## Made again, bit by bit\n\nWith Plotscan " +

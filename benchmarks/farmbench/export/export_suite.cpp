@@ -94,13 +94,13 @@ json export_field(const BlindField& field, const ExportOptions& options, const f
   json hashes = json::object();
   for (const auto& entry : fs::directory_iterator(folder))
     hashes[entry.path().filename().string()] = sha256_of_file(entry.path());
-  json told = {
+  json entry = {
       {"field", field.code},
       {"points", points},
-      {"farm_sha256", told_farm_sha256(field.code, sha256_of_folder(work / "farm" / "truth"))},
+      {"farm_sha256", blinded_farm_sha256(field.code, sha256_of_folder(work / "farm" / "truth"))},
       {"sha256", hashes}};
   fs::remove_all(work);
-  return told;
+  return entry;
 }
 
 // The clock tells the order in which files were written.

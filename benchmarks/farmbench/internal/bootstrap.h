@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "farmbench/table.h"
+#include "farmbench/results_table.h"
 
 namespace plotscan::farmbench {
 

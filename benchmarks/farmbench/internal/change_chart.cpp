@@ -11,7 +11,7 @@
 #include <fmt/core.h>
 
 #include "core/text.h"
-#include "farmbench/figures.h"
+#include "farmbench/figure_text.h"
 #include "farmbench/internal/method_rows.h"
 
 namespace plotscan::farmbench {

@@ -6,7 +6,7 @@
 #include <fmt/core.h>
 
 #include "estimate/diagnostics.h"
-#include "farmbench/figures.h"
+#include "farmbench/figure_text.h"
 
 namespace plotscan::farmbench {
 namespace {
@@ -15,8 +15,8 @@ namespace {
 std::string reason_of(const MethodResult& run) {
   if (!run.failure.empty() || run.score.plots.empty()) return run.failure;
   const auto why = run.diagnostics.find(estimate::kWhyNoPlots);
-  const bool is_told = why != run.diagnostics.end() && why->is_string();
-  return is_told ? "no plots: " + why->get<std::string>() : "";
+  const bool is_stated = why != run.diagnostics.end() && why->is_string();
+  return is_stated ? "no plots: " + why->get<std::string>() : "";
 }
 
 std::vector<std::string> failure_lines(const SuiteResult& result) {

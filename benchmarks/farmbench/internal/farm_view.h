@@ -27,7 +27,7 @@ struct FarmView {
   const std::vector<estimate::Estimate>& estimates;
   const std::vector<score::TruePlot>& truth;
   const terrain::Terrain& terrain;
-  const FarmResult& result;  // whose case, seed and counts are told
+  const FarmResult& result;  // whose case, seed and counts are shown
 };
 
 // How many points a farm's view has at most, so that a page with one farm of each case stays small.
@@ -39,7 +39,7 @@ std::filesystem::path farm_view_file(const std::filesystem::path& output, const 
 // Writes report::packed_field of the farm as CBOR.
 void write_farm_view(const std::filesystem::path& file, const FarmView& view);
 
-// Reads it back; nothing where there is no such file. Throws InputError where it is broken.
+// Reads it back; absent where there is no such file. Throws InputError where it is broken.
 std::optional<nlohmann::json> read_farm_view(const std::filesystem::path& file);
 
 }  // namespace plotscan::farmbench

@@ -9,10 +9,10 @@
 
 #include "core/list_of.h"
 #include "core/output_file.h"
+#include "farmbench/internal/chosen_rows.h"
 #include "farmbench/internal/farm_view.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/internal/sweep_table.h"
-#include "farmbench/reports.h"
 #include "report/decimals.h"
 #include "report/page.h"
 

@@ -6,8 +6,8 @@
 
 #include <nlohmann/json.hpp>
 
+#include "farmbench/results_table.h"
 #include "farmbench/suite_result.h"
-#include "farmbench/table.h"
 
 namespace plotscan::farmbench {
 

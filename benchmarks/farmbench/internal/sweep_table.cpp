@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/text.h"
-#include "farmbench/figures.h"
+#include "farmbench/figure_text.h"
 #include "farmbench/internal/failures.h"
 #include "farmbench/internal/method_rows.h"
 #include "farmbench/markdown.h"
@@ -79,7 +79,7 @@ double surely_at_most(const TableRow& row) {
 }
 
 // The cells of a row for people.
-Cells told(const SuiteResult& result, const TableRow& row) {
+Cells shown_cells(const SuiteResult& result, const TableRow& row) {
   const FlightCost cost = flight_costs(result)[place_of(result, row.case_name)];
   Cells cells = values_of(result, row);
   cells.insert(
@@ -91,7 +91,7 @@ Cells told(const SuiteResult& result, const TableRow& row) {
   return cells;
 }
 
-Cells told_heads(const SuiteResult& result) {
+Cells shown_heads(const SuiteResult& result) {
   Cells heads = axis_keys(result);
   heads.insert(heads.end(), {"RMSE [95 %]", "bias", "found", "extra", "flight, s", "Mpoints"});
   return heads;
@@ -177,15 +177,15 @@ std::string sweep_markdown(const SuiteResult& result, const std::vector<TableRow
                      ", with 95 % bootstrap intervals over farms.\n\n";
   if (const std::string said = answer(result, rows); !said.empty()) text += said + "\n\n";
   const std::vector<Cells> lines =
-      list_of(rows, [&](const TableRow& row) { return told(result, row); });
-  return text + markdown_table(told_heads(result), lines) + failure_list("Gave up:", result);
+      list_of(rows, [&](const TableRow& row) { return shown_cells(result, row); });
+  return text + markdown_table(shown_heads(result), lines) + failure_list("Gave up:", result);
 }
 
 std::vector<std::string> sweep_lines(const SuiteResult& result,
                                      const std::vector<TableRow>& table) {
   const std::vector<TableRow> rows = sweep_rows(result, table);
-  std::vector<Cells> all = {told_heads(result)};
-  for (const TableRow& row : rows) all.push_back(told(result, row));
+  std::vector<Cells> all = {shown_heads(result)};
+  for (const TableRow& row : rows) all.push_back(shown_cells(result, row));
   std::vector<std::size_t> widths(all.front().size());
   for (const Cells& cells : all)
     for (std::size_t i = 0; i < cells.size(); ++i) widths[i] = std::max(widths[i], cells[i].size());

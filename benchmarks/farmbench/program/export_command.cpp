@@ -4,7 +4,7 @@
 #include "commands.h"
 #include "core/data_folder.h"
 #include "farmbench/export/dataset.h"
-#include "farmbench/figures.h"
+#include "farmbench/figure_text.h"
 
 namespace plotscan {
 namespace {

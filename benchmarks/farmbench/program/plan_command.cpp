@@ -7,7 +7,7 @@
 #include "core/data_folder.h"
 #include "core/manifest.h"
 #include "core/text.h"
-#include "farmbench/figures.h"
+#include "farmbench/figure_text.h"
 #include "farmbench/plan.h"
 #include "farmbench/reports.h"
 #include "suite_options.h"

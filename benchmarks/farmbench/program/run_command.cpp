@@ -10,7 +10,7 @@
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/stopwatch.h"
-#include "farmbench/figures.h"
+#include "farmbench/figure_text.h"
 #include "farmbench/reports.h"
 #include "farmbench/run.h"
 #include "suite_options.h"

@@ -23,6 +23,8 @@ void run_score(const Program& program, farmbench::ScoreSubmissionOptions options
   if (!scored.apart.empty())
     program.say("In " + joined(scored.apart, ", ") +
                 " all plots lie apart from the true ones: are both in the clouds' coordinates?");
+  for (const auto& [hint, fields] : scored.hints)
+    program.announce("note: in " + joined(fields, ", ") + ": " + hint);
   if (options.output) {
     program.say("Added to table.csv, results.json, leaderboard.md in " + options.output->string());
     program.say("To look at: " + (*options.output / "report.html").string());

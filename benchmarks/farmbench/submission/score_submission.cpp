@@ -43,7 +43,7 @@ FieldTruth truth_of(const BlindField& field, const fs::path& folder, int threads
 }
 
 // The field's entry in the submission's task.json, null where it has none.
-json told_of(const Submission& submission, const std::string& code) {
+json task_entry(const Submission& submission, const std::string& code) {
   if (submission.task.is_null()) return {};
   for (const json& field : submission.task["fields"])
     if (field["field"] == code) return field;
@@ -53,18 +53,18 @@ json told_of(const Submission& submission, const std::string& code) {
 void require_same_farm(const Submission& submission, const std::string& code,
                        const FieldTruth& truth, Problems& problems) {
   if (submission.task.is_null()) return;
-  const json told = told_of(submission, code);
-  if (told.is_null() || told["farm_sha256"] != told_farm_sha256(code, truth.farm_sha256))
+  const json entry = task_entry(submission, code);
+  if (entry.is_null() || entry["farm_sha256"] != blinded_farm_sha256(code, truth.farm_sha256))
     problems.add("task.json",
                  "is of other farms: field " + code + " is not there, or has another farm_sha256");
 }
 
 std::string cloud_sha256(const Submission& submission, const std::string& code) {
-  const json told = told_of(submission, code);
-  if (told.is_null() || !told["sha256"].is_object()) return "";
+  const json entry = task_entry(submission, code);
+  if (entry.is_null() || !entry["sha256"].is_object()) return "";
   for (const char* cloud : {"cloud.pcd", "cloud.las"})
-    if (told["sha256"].contains(cloud) && told["sha256"][cloud].is_string())
-      return told["sha256"][cloud];
+    if (entry["sha256"].contains(cloud) && entry["sha256"][cloud].is_string())
+      return entry["sha256"][cloud];
   return "";
 }
 
@@ -256,6 +256,9 @@ ScoredSubmission score_submission(const ScoreSubmissionOptions& options,
   }
   ScoredSubmission scored = alone(entry, suite, options.seed);
   scored.apart = std::move(apart);
+  for (const EnteredFarm& farm : entry.farms)
+    if (const std::string hint = score::unit_hint(farm.result.score); !hint.empty())
+      scored.hints[hint].push_back(farm.field);
   return scored;
 }
 

@@ -3,14 +3,15 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "core/progress.h"
 #include "farmbench/entries.h"
+#include "farmbench/results_table.h"
 #include "farmbench/suite_choice.h"
-#include "farmbench/table.h"
 
 namespace plotscan::farmbench {
 
@@ -28,6 +29,8 @@ struct ScoredSubmission {
   std::vector<TableRow> table;
   std::vector<std::string> missing;  // fields without a file: nothing of them was found
   std::vector<std::string> apart;    // fields all of whose plots lie apart from the true ones
+  // What looks wrong (score::unit_hint), and in which fields.
+  std::map<std::string, std::vector<std::string>> hints;
 };
 
 // Makes the suite's farms again, without flying them, scores the submission as run_farm scores a

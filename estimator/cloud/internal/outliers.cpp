@@ -59,7 +59,7 @@ class Columns {
     double high_m = -kNowhere;
   };
 
-  // The slab of a point; nothing where the point lies too far from the tile's level.
+  // The slab of a point; absent where the point lies too far from the tile's level.
   std::optional<std::size_t> slab_in(std::size_t tile, double z_m) const {
     const int slab = slab_of(z_m) - first_slab_[tile];
     if (slab < 0 || slab >= static_cast<int>(slabs_)) return std::nullopt;

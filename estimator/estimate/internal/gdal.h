@@ -22,4 +22,13 @@ std::string gdal_missing();
 // The function of this name. Only where GDAL can be loaded.
 void* gdal_function(const char* name);
 
+// Keeps GDAL from printing its errors on stderr while this object lives.
+class QuietGdal {
+ public:
+  QuietGdal() { GDAL(CPLPushErrorHandler)(GDAL(CPLQuietErrorHandler)); }
+  ~QuietGdal() { GDAL(CPLPopErrorHandler)(); }
+  QuietGdal(const QuietGdal&) = delete;
+  QuietGdal& operator=(const QuietGdal&) = delete;
+};
+
 }  // namespace plotscan::estimate

@@ -41,15 +41,6 @@ namespace {
 
 using nlohmann::json;
 
-// Keeps GDAL from printing its errors on stderr while this object lives.
-class QuietGdal {
- public:
-  QuietGdal() { GDAL(CPLPushErrorHandler)(GDAL(CPLQuietErrorHandler)); }
-  ~QuietGdal() { GDAL(CPLPopErrorHandler)(); }
-  QuietGdal(const QuietGdal&) = delete;
-  QuietGdal& operator=(const QuietGdal&) = delete;
-};
-
 struct CloseMap {
   void operator()(GDALDatasetH map) const { GDAL(GDALClose)(map); }
 };

@@ -166,7 +166,7 @@ void move_by(const Eigen::Vector3d& origin, estimate::Estimate& estimate) {
   }
 }
 
-// The part of the cloud that is read; nothing where the scanned field is to be found.
+// The part of the cloud that is read; absent where the scanned field is to be found.
 std::optional<cloud::NamedArea> area_of(const Options& options) {
   if (options.crop_box) return cloud::NamedArea{.area = *options.crop_box};
   if (options.boxes.empty()) return std::nullopt;

@@ -10,7 +10,6 @@
 #include <Eigen/Geometry>
 #include <fmt/core.h>
 
-#include "cloud/coordinate_step.h"
 #include "cloud/field_density.h"
 #include "cloud/points_in_boxes.h"
 #include "core/angle.h"
@@ -22,8 +21,10 @@
 #include "core/stage.h"
 #include "estimate/given_plots.h"
 #include "heights/measure_heights.h"
+#include "methods/lattice/internal/field_notes.h"
 #include "methods/lattice/internal/field_report.h"
 #include "methods/lattice/internal/layout_doubts.h"
+#include "methods/lattice/internal/upside_down.h"
 #include "methods/lattice/settings.h"
 #include "plots/search/find_trials.h"
 
@@ -52,24 +53,24 @@ ground::Surface ground_of(const cloud::FieldCloud& cloud, const Options& options
 }
 
 // Reports the work ahead to the caller, if it asked for that.
-void tell_work(const cloud::FieldCloud& cloud, const Options& options) {
-  if (!options.tell) return;
-  options.tell(estimate_work({.points = cloud.counts.read,
-                              .rectangle_m2 = cloud::sides_of(cloud.area).prod(),
-                              .density_m2 = cloud.density_m2},
-                             options.threads));
+void report_work(const cloud::FieldCloud& cloud, const Options& options) {
+  if (!options.on_work) return;
+  options.on_work(estimate_work({.points = cloud.counts.read,
+                                 .rectangle_m2 = cloud::sides_of(cloud.area).prod(),
+                                 .density_m2 = cloud.density_m2},
+                                options.threads));
 }
 
 // The field's points of the user's ground classes, in the field's frame.
-Points ground_told(const CloudFiles& cloud, const cloud::FieldCloud& field,
-                   const Options& options) {
+Points read_ground_points(const CloudFiles& cloud, const cloud::FieldCloud& field,
+                          const Options& options) {
   CloudFiles of_classes = cloud;
   of_classes.only_classes = options.ground_classes;
-  cloud::FieldCloud told =
+  cloud::FieldCloud ground =
       cloud::read_field(of_classes, {.area = field.area, .threads = options.threads});
-  const Eigen::Vector3f moved = (told.origin - field.origin).cast<float>();
-  for (Eigen::Vector3f& point : told.points) point += moved;
-  return std::move(told.points);
+  const Eigen::Vector3f moved = (ground.origin - field.origin).cast<float>();
+  for (Eigen::Vector3f& point : ground.points) point += moved;
+  return std::move(ground.points);
 }
 
 // (x, y, height above the ground) of the points that have ground within reach, in their order.
@@ -93,31 +94,11 @@ plots::Hints hints_of(const Options& options) {
   return hints;
 }
 
-std::string too_few(const std::string& for_what) {
-  return fmt::format("too few points to show {}: about {:.0f} a square metre are needed", for_what,
-                     cloud::kPlotsFound_m2);
-}
-
-// Why a field in which plots were searched shows none.
-std::string why_none(const std::string& by_plots, double density_m2, double noise_m,
-                     const Options& options) {
-  constexpr double kRough_m = 0.05;  // sensors and strips that fit scatter less
-  std::string why = by_plots;
-  if (options.heading_deg)
-    why += fmt::format("; searched along and across --heading {:g} only", *options.heading_deg);
-  if (noise_m > kRough_m)
-    why += fmt::format(
-        "; the ground's returns scatter by {:.1f} cm, which hides canopy: the ground was "
-        "removed, strips lie apart in height, or noise",
-        100 * noise_m);
-  return density_m2 < cloud::kPlotsFound_m2 ? too_few("plots") + " (" + why + ")" : why;
-}
-
 void add_plots(const plots::PlotField& trial, int number, const Options& options,
                std::vector<estimate::PlotEstimate>& found) {
-  const bool told = hints_of(options).tell_layout();
+  const bool stated = hints_of(options).tell_layout();
   const std::vector<std::string> doubts =
-      trial.fit ? doubts_of(*trial.fit, told) : std::vector<std::string>();
+      trial.fit ? doubts_of(*trial.fit, stated) : std::vector<std::string>();
   for (const plots::FoundPlot& plot : trial.plots) {
     found.push_back({.id = static_cast<std::uint32_t>(found.size() + 1),
                      .trial = number,
@@ -137,23 +118,6 @@ void add_plots(const plots::PlotField& trial, int number, const Options& options
       found.back().flags.emplace_back(
           "canopy does not end at one of its sides (a guard plot, or another crop beside it)");
   }
-}
-
-void add_note(std::string note, estimate::Diagnostics& diagnostics) {
-  if (!diagnostics.notes) diagnostics.notes.emplace();
-  diagnostics.notes->push_back(std::move(note));
-}
-
-// The heading that was told is that of the longer side, and both are searched.
-void note_heading(const plots::PlotField& trial, const Options& options,
-                  estimate::Diagnostics& diagnostics) {
-  if (!options.heading_deg || trial.plots.empty()) return;
-  const double heading_rad = trial.plots.front().box.heading_rad;
-  const double off_rad = std::remainder(heading_rad - radians(*options.heading_deg), kPi);
-  if (std::abs(off_rad) < kPi / 4) return;
-  add_note(fmt::format("the plots are longer along {:.0f} degrees than along --heading {:g}",
-                       heading_rad / kDegrees, *options.heading_deg),
-           diagnostics);
 }
 
 // The plots that the field shows, or the given ones, in the map's own frame.
@@ -239,18 +203,6 @@ estimate::PointAccount account_of(const cloud::FieldCloud& cloud, std::size_t wi
 
 constexpr std::size_t kLeastOfGround = 3;  // points with ground beneath them: fewer are no surface
 
-// The message for a cloud in which hardly any point has ground beneath it.
-std::string no_ground_because(const cloud::FieldCloud& cloud,
-                              const estimate::PointAccount& points) {
-  const double kept_m2 =
-      static_cast<double>(cloud.counts.kept) / cloud::sides_of(cloud.area).prod();
-  const std::string seen =
-      " (" + text_of(points) + "; " + cloud::density_text(cloud.density_m2) + " points/m2); ";
-  if (std::min(kept_m2, cloud.density_m2) < cloud::kLeastSearched_m2)
-    return too_few("ground and plots") + seen + "fly lower or slower for more points";
-  return "the cloud shows no ground" + seen + "cut it to the field with --crop-box";
-}
-
 // Throws NothingToMeasure if all points lie in one place, as a field in degrees does.
 void require_extent(const Points& points) {
   constexpr float kShortestSide_m = 0.1f;
@@ -264,26 +216,12 @@ void require_extent(const Points& points) {
       "are longitude and latitude, else --units");
 }
 
-// Canopy is what stands higher than the noise: where that is said to be less than it is, bare
-// ground looks like canopy.
-void note_noise(const ground::Surface& surface, const Options& options,
-                estimate::Diagnostics& diagnostics) {
-  if (!options.noise_m || surface.noise_m > surface.noise_seen_m / 2) return;
-  add_note(fmt::format("heights of bare ground scatter by {:.1f} cm, over twice what --noise says",
-                       100 * surface.noise_seen_m),
-           diagnostics);
-}
-
-// What the user should know of the steps in which the cloud counts, if anything.
-void note_steps(const cloud::FieldCloud& cloud, estimate::Diagnostics& diagnostics) {
-  cloud::CoordinateSteps steps;
-  std::vector<Eigen::Vector3d> one(1);
-  for (const Eigen::Vector3f& point : cloud.points) {
-    one[0] = point.cast<double>();
-    steps.add(one);
-  }
-  std::string note = cloud::step_note(steps.steps_m(), cloud.density_m2);
-  if (!note.empty()) add_note(std::move(note), diagnostics);
+// Throws NothingToMeasure if z points down: plots would be pits, and alleys canopy.
+void require_upright(const Points& points, const ground::Surface& surface) {
+  if (!is_upside_down(points, surface.noise_m)) return;
+  throw NothingToMeasure(
+      "z points down here: what stands on the ground lies below it; change the sign of z, and "
+      "swap x and y (or change the sign of one of them) so that the field is not mirrored");
 }
 
 estimate::GroundFacts facts_of(const ground::Surface& surface) {
@@ -319,9 +257,10 @@ FoundField found_in(cloud::FieldCloud cloud, const Options& options,
   estimate::Estimate estimate{.method = "lattice"};
   note_steps(cloud, estimate.diagnostics);
   estimate.diagnostics.density_per_m2 = cloud.density_m2;
-  tell_work(cloud, options);
+  report_work(cloud, options);
   ground::Surface surface = ground_of(cloud, options, progress);
   note_noise(surface, options, estimate.diagnostics);
+  require_upright(cloud.points, surface);
   Points heights = above_ground(std::move(cloud.points), surface, options.threads);
   estimate.diagnostics.points = account_of(cloud, heights.size());
   if (heights.size() < kLeastOfGround)
@@ -368,7 +307,8 @@ FoundField find_field(const CloudFiles& cloud, const Options& options,
   require_sound(options);
   cloud::FieldCloud field = cloud::read_field(
       cloud, field_options(options), [&](double share) { report(progress, kField * share); });
-  if (!options.ground_classes.empty()) field.ground_points = ground_told(cloud, field, options);
+  if (!options.ground_classes.empty())
+    field.ground_points = read_ground_points(cloud, field, options);
   return found_in(std::move(field), options, progress);
 }
 

@@ -35,8 +35,8 @@ struct Options {
   std::vector<int> ground_classes = {};  // ASPRS classes that may carry the ground; none: all may
   std::optional<std::string> crop = {};  // one of heights::crop_names(), else from the canopy
   int threads = 1;
-  // Called once the field is read, before it is processed.
-  std::function<void(const WorkEstimate&)> tell = {};
+  // Called with the work ahead, once the field is read.
+  std::function<void(const WorkEstimate&)> on_work = {};
 };
 
 // Throws InputError when an option is out of its range.

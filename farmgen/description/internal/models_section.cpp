@@ -7,7 +7,7 @@
 #include "core/yaml_section.h"
 #include "crop/grow.h"
 #include "description/internal/sections.h"
-#include "description/internal/values.h"
+#include "description/internal/shared_keys.h"
 
 namespace plotscan::description {
 namespace {

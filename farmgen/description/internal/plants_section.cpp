@@ -8,7 +8,7 @@
 #include "core/trial_layout.h"
 #include "core/yaml_section.h"
 #include "description/internal/sections.h"
-#include "description/internal/values.h"
+#include "description/internal/shared_keys.h"
 #include "planting/plot_layout.h"
 
 namespace plotscan::description {

@@ -4,7 +4,7 @@
 #include "core/angle.h"
 #include "core/yaml_section.h"
 #include "description/internal/sections.h"
-#include "description/internal/values.h"
+#include "description/internal/shared_keys.h"
 
 namespace plotscan::description {
 namespace {

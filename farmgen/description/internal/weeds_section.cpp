@@ -3,7 +3,7 @@
 
 #include "core/yaml_section.h"
 #include "description/internal/sections.h"
-#include "description/internal/values.h"
+#include "description/internal/shared_keys.h"
 
 namespace plotscan::description {
 planting::WeedsDescription read_weeds(const YamlSection& section,

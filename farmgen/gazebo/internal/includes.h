@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "gazebo/internal/resources.h"
+#include "gazebo/internal/resource_finder.h"
 
 namespace plotscan::gazebo {
 

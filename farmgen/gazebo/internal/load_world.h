@@ -10,7 +10,7 @@
 
 #include "farm/surface_class.h"
 #include "gazebo/internal/includes.h"
-#include "gazebo/internal/resources.h"
+#include "gazebo/internal/resource_finder.h"
 
 namespace plotscan::gazebo {
 

@@ -12,7 +12,7 @@
 #include <Eigen/Geometry>
 
 #include "core/text_file.h"
-#include "gazebo/surfaces.h"
+#include "gazebo/plant_surfaces.h"
 
 namespace plotscan::gazebo {
 

@@ -8,7 +8,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
-#include "gazebo/internal/shapes.h"
+#include "gazebo/internal/primitive_meshes.h"
 
 namespace plotscan::gazebo {
 namespace {

@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "farm/farm.h"
-#include "gazebo/elements.h"
 #include "gazebo/export_options.h"
 #include "gazebo/merged_models.h"
+#include "gazebo/model_sdf.h"
 #include "gazebo/plant_models.h"
 
 // The files of an exported world besides its models of plants.

@@ -3,7 +3,7 @@
 
 #include "core/error.h"
 #include "core/list_of.h"
-#include "farm/heights.h"
+#include "farm/true_heights.h"
 #include "planting/internal/plants.h"
 #include "planting/layout_table.h"
 #include "planting/plot_layout.h"

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <set>
 
+#include <fmt/core.h>
+
 #include "core/error.h"
 #include "core/text.h"
 #include "crop/grow.h"
@@ -12,6 +14,7 @@ namespace plotscan::planting {
 namespace {
 
 constexpr double kTallest_m = 120;                  // no tree is taller
+constexpr double kTallCrop_m = 10;                  // no crop of a field is taller
 constexpr std::size_t kMostTriangles = 20'000'000;  // of all models, scan and light: about 1 GB
 
 // The light mesh is for simulators, which show leaves as pictures; the scan mesh is for lasers.
@@ -94,6 +97,12 @@ farm::PlantModel make_model(const ModelDescription& description, mesh::MeshReade
                      "model {} is {:.4g} m tall; a plant has up to {:.0f} m (unit_m says what the "
                      "file's numbers are)",
                      model.name, model.height_m, kTallest_m);
+  }
+  if (model.height_m > kTallCrop_m) {
+    model.notes.push_back(fmt::format(
+        "model {} is {:.4g} m tall, more than any crop of a field: unit_m says what the "
+        "file's numbers are",
+        model.name, model.height_m));
   }
   if (model.height_m > 0) return model;
   if (description.grown) throw InputError(source, "model {}: has no height", model.name);

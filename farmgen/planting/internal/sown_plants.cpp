@@ -6,7 +6,7 @@
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/random.h"
-#include "farm/heights.h"
+#include "farm/true_heights.h"
 #include "planting/internal/plants.h"
 #include "planting/plot_layout.h"
 
@@ -23,7 +23,7 @@ struct Gap {
   std::uint32_t row = 0;
 };
 
-// How a plot's plants lean; nothing where they stand.
+// How a plot's plants lean; absent where they stand.
 struct Lodging {
   double angle_rad = 0;
   double direction_rad = 0;

@@ -11,7 +11,7 @@
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/random.h"
-#include "farm/heights.h"
+#include "farm/true_heights.h"
 #include "planting/internal/plants.h"
 #include "planting/plot_layout.h"
 #include "terrain/extent.h"

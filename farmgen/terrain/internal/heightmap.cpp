@@ -2,7 +2,7 @@
 #include <utility>
 
 #include "core/error.h"
-#include "terrain/internal/bases.h"
+#include "terrain/internal/base_terrains.h"
 #include "terrain/internal/grey_image.h"
 #include "terrain/internal/refine.h"
 

@@ -7,7 +7,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 
 #include "core/random.h"
-#include "terrain/internal/bases.h"
+#include "terrain/internal/base_terrains.h"
 
 namespace plotscan::terrain {
 namespace {

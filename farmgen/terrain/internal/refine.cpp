@@ -12,7 +12,7 @@
 
 #include "core/error.h"
 #include "core/list_of.h"
-#include "terrain/internal/bases.h"
+#include "terrain/internal/base_terrains.h"
 
 namespace plotscan::terrain {
 namespace {

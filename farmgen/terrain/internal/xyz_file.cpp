@@ -9,7 +9,7 @@
 #include "core/list_of.h"
 #include "core/parse.h"
 #include "core/text.h"
-#include "terrain/internal/bases.h"
+#include "terrain/internal/base_terrains.h"
 #include "terrain/internal/refine.h"
 
 namespace plotscan::terrain {

@@ -37,7 +37,7 @@ constexpr auto kPatience = std::chrono::seconds(5);
 // Halts every other thread. Allocates nothing, as these threads may hold the heap's locks.
 void halt_other_threads() {
   constexpr int kMostThreads = 4096;
-  static std::array<pid_t, kMostThreads> told{};
+  static std::array<pid_t, kMostThreads> signalled{};
   int count = 0;
   const pid_t process = getpid();
   const pid_t own = gettid();
@@ -48,11 +48,11 @@ void halt_other_threads() {
     for_each_name(tasks, [&](const char* name) {
       pid_t thread = 0;
       std::from_chars(name, name + std::strlen(name), thread);
-      const bool known =
-          std::find(told.begin(), told.begin() + count, thread) != told.begin() + count;
+      const bool known = std::find(signalled.begin(), signalled.begin() + count, thread) !=
+                         signalled.begin() + count;
       if (thread <= 0 || thread == own || known || count == kMostThreads) return;
       if (syscall(SYS_tgkill, process, thread, halt_signal()) != 0) return;
-      told[static_cast<std::size_t>(count++)] = thread;
+      signalled[static_cast<std::size_t>(count++)] = thread;
       found = true;
     });
     close(tasks);

@@ -18,7 +18,7 @@ struct RectangleFit {
 
 // Fits a rectangle to a ring of vertices (metres, closed or not, either way round). Vertices that
 // bend the outline least are dropped until four corners remain; the rectangle has the least sum of
-// squared distances to these. Nothing when there are fewer than four vertices, or more than 1000.
+// squared distances to these. Absent when there are fewer than four vertices, or more than 1000.
 std::optional<RectangleFit> fit_rectangle(std::vector<Eigen::Vector2d> ring);
 
 // The greatest RectangleFit::off_m with which a polygon counts as a plot, metres: 0.1, or 3 % of

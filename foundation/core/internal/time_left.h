@@ -10,7 +10,7 @@ namespace plotscan {
 class TimeLeft {
  public:
   // Reports that `share` (0 to 1) of the work was done at `now_s`; both must grow. The work begins
-  // at 0 s, or when a share of 0 is reported. Returns the seconds left; nothing in the first
+  // at 0 s, or when a share of 0 is reported. Returns the seconds left; absent in the first
   // kSilent_s, too early to tell.
   std::optional<double> at(double now_s, double share);
 

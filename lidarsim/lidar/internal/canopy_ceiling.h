@@ -36,7 +36,7 @@ class CanopyCeiling {
   std::vector<Standing> plants_near(const RayGrid& grid) const;
 
   // For each of the grid's rays an upper bound of what it hits, metres above the ground; 0 means
-  // that it hits the ground. `near` are the plants near the grid. Nothing if a ray may miss the
+  // that it hits the ground. `near` are the plants near the grid. Absent if a ray may miss the
   // terrain, or if plants stand so close that casting all rays takes no longer.
   std::optional<std::vector<float>> over(const RayGrid& grid,
                                          const std::vector<Standing>& near) const;

@@ -31,10 +31,17 @@ void place_in_utm(const Source& source, const std::filesystem::path& file, scan:
   };
 }
 
+// Of a cloud that states no system: a scan of ours is in the world frame, and where that of others
+// lies nobody knows.
+std::string local_system_of(const Source& source) {
+  return source.of_scan_folder ? scan::local_crs_wkt() : scan::coded_crs_wkt(0, {});
+}
+
 // Clouds of others keep their system.
 void require_local(const Source& source, const std::filesystem::path& file) {
   const std::string& stated = source.info.crs_wkt;
-  if (stated.empty() || stated == scan::local_crs_wkt()) return;
+  if (stated.empty() || stated == scan::local_crs_wkt() || stated == scan::coded_crs_wkt(0, {}))
+    return;
   throw InputError(
       file, "--crs local is for clouds that state no system; this one states {}, which is kept",
       scan::crs_name(scan::short_crs(stated)));
@@ -43,7 +50,7 @@ void require_local(const Source& source, const std::filesystem::path& file) {
 scan::LasOptions las_options(const std::filesystem::path& file, const Source& source,
                              const WriteOptions& options) {
   scan::LasOptions las{.start = source.info.start, .crs_wkt = source.info.crs_wkt};
-  if (las.crs_wkt.empty()) las.crs_wkt = scan::local_crs_wkt();
+  if (las.crs_wkt.empty()) las.crs_wkt = local_system_of(source);
   las.offset_m = source.info.origin_m;
   if (source.flight) {
     const FlightRecord& flight = *source.flight;

@@ -20,6 +20,7 @@ struct Source {
   std::filesystem::path path;  // for messages
   scan::CloudInfo info;
   std::optional<FlightRecord> flight;  // positions count from info.origin_m, like the points
+  bool of_scan_folder = false;         // whether it is a scan of ours, in the world frame
   // The body's trajectory in the world frame and the points' time, if the file itself holds one.
   std::optional<scan::Trajectory> trajectory = {};
   // Streams the points in the order of firing; may be called once. Returns how many were passed on,
@@ -34,9 +35,9 @@ struct ReadOptions {
   // What the user says about the flight. `open` throws InputError without it on a recording that is
   // not self-contained.
   std::optional<FlightRecord> flight = {};
-  bool sensor_told = true;  // whether the user chose flight.sensor; false: a default
-  bool spin_told = true;    // the same of flight.spin_hz
-  std::string topic = {};   // of clouds in a bag or MCAP file; empty: RosPoints chooses
+  bool sensor_given = true;  // whether the user chose flight.sensor; false: a default
+  bool spin_given = true;    // the same of flight.spin_hz
+  std::string topic = {};    // of clouds in a bag or MCAP file; empty: RosPoints chooses
 };
 
 // How a file is written.

@@ -8,8 +8,8 @@
 
 // The ROS messages of our recordings, member for member as ROS defines them; they are the same in
 // ROS 1 and ROS 2 but for Header's seq. Each type names its members once, in fields(), from which
-// its bytes are made and read (codec.h); its text is in internal/definitions.cpp. Units and frames
-// are ROS's (REP 103): metres, seconds, radians; quaternions (x, y, z, w).
+// its bytes are made and read (codec.h); its text is in internal/message_definitions.cpp. Units and
+// frames are ROS's (REP 103): metres, seconds, radians; quaternions (x, y, z, w).
 namespace plotscan::record::ros {
 
 struct Time {

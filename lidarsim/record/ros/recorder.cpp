@@ -7,7 +7,7 @@
 #include <fmt/core.h>
 
 #include "core/error.h"
-#include "record/ros/internal/cloud.h"
+#include "record/ros/internal/cloud_message.h"
 #include "record/ros/internal/inertial.h"
 
 namespace plotscan::record {

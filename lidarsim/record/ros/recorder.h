@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "record/recording/flight_record.h"
-#include "record/ros/file.h"
+#include "record/ros/message_file.h"
 #include "record/velodyne/encoder.h"
 #include "scan/point.h"
 

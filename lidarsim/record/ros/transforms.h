@@ -21,7 +21,7 @@ class FramePath {
   std::optional<Eigen::Isometry3d> top_from_frame(double time_s) const;
   // The motion, in the topmost frame, of the first frame on the way up that moves relative to its
   // parent: the drone's body, above its sensor. Its poses are at the times of its own transforms,
-  // as far as the transforms above cover them. Nothing if all frames stand still.
+  // as far as the transforms above cover them. Absent if all frames stand still.
   std::optional<scan::Trajectory> motion() const;
 
  private:

@@ -53,7 +53,7 @@ using DataPacketBytes = std::array<std::uint8_t, kDataPacketSize>;
 
 DataPacketBytes encode(const DataPacket& packet);
 
-// Nothing if the bytes are no data packet: another length, block flags other than 0xFFEE (an
+// Absent if the bytes are no data packet: another length, block flags other than 0xFFEE (an
 // HDL-64E's or VLS-128's among them), an azimuth of 360 degrees and more, or an unknown mode byte.
 std::optional<DataPacket> decode_data_packet(std::span<const std::uint8_t> payload);
 
@@ -73,7 +73,7 @@ using PositionPacketBytes = std::array<std::uint8_t, kPositionPacketSize>;
 
 PositionPacketBytes encode(const PositionPacket& packet);
 
-// Nothing if the bytes are no position packet: another length, or an unknown PPS status.
+// Absent if the bytes are no position packet: another length, or an unknown PPS status.
 std::optional<PositionPacket> decode_position_packet(std::span<const std::uint8_t> payload);
 
 }  // namespace plotscan::record

@@ -10,23 +10,23 @@ namespace {
 using std::filesystem::path;
 
 Source open_pcap(const path& file, const ReadOptions& options) {
-  const std::optional<FlightRecord>& told = options.flight;
+  const std::optional<FlightRecord>& flight = options.flight;
   const PcapInfo info = read_pcap_info(file);
   const sensor::Sensor sensor =
-      told && options.sensor_told ? told->sensor : sensor_of_product(info.first.product, file);
-  Source source{.path = file, .info = {}, .flight = told, .stream = {}};
+      flight && options.sensor_given ? flight->sensor : sensor_of_product(info.first.product, file);
+  Source source{.path = file, .info = {}, .flight = flight, .stream = {}};
   source.info.start = info.start;
   source.info.fields = {"x",           "y", "z", "intensity", "ring", "time", "return_number",
                         "return_count"};
   std::optional<Placement> placement;
-  if (told) {
+  if (flight) {
     source.flight->sensor = sensor;
     source.flight->start = info.start;
     source.flight->returns = info.first.mode;
-    if (!options.spin_told) source.flight->spin_hz = spin_hz(info.first, sensor);
-    source.info.origin_m = scan::origin_near(told->reported.poses().front().position_m);
-    placement = {.world_from_body = scan::moved(told->reported, -source.info.origin_m),
-                 .body_from_lidar = told->body_from_lidar};
+    if (!options.spin_given) source.flight->spin_hz = spin_hz(info.first, sensor);
+    source.info.origin_m = scan::origin_near(flight->reported.poses().front().position_m);
+    placement = {.world_from_body = scan::moved(flight->reported, -source.info.origin_m),
+                 .body_from_lidar = flight->body_from_lidar};
   }
   source.stream = [=](const scan::PointSink& sink) {
     const PcapSummary read = read_pcap(file, sensor, placement, sink);

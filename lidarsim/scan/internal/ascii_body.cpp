@@ -5,7 +5,7 @@
 #include "core/error.h"
 #include "core/parse.h"
 #include "core/text.h"
-#include "scan/internal/rows.h"
+#include "scan/internal/cloud_body.h"
 
 namespace plotscan::scan {
 namespace {

@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "scan/internal/cloud_body.h"
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -9,7 +11,6 @@
 
 #include "core/error.h"
 #include "scan/internal/cloud_layout.h"
-#include "scan/internal/rows.h"
 
 namespace plotscan::scan {
 namespace {

@@ -39,7 +39,7 @@ struct CloudLayout {
 
   bool in_degrees = false;         // of x and y
   CoordinateUnits units;           // else
-  std::vector<std::string> notes;  // what the user should be told, one sentence each
+  std::vector<std::string> notes;  // what the user should know, one sentence each
 
   // Only for text clouds (text_header.cpp).
   bool is_text = false;
@@ -72,7 +72,7 @@ class HeaderLines {
 
   // The next line's words; an empty line has none. InputError at the end of the file.
   const std::vector<std::string>& next();
-  // The next line, or nothing at the end of the file.
+  // The next line; absent at the end of the file.
   std::optional<std::string> next_text();
   // The offset of the next line, bytes from the file's start.
   std::uint64_t offset() const { return offset_; }
@@ -92,7 +92,7 @@ class HeaderLines {
 // The columns of an ascii line, without the blanks around them. A separator of ' ' stands for any
 // blanks.
 void split_columns(std::string_view line, char separator, std::vector<std::string_view>& columns);
-// The number that the whole word stands for, with any sign, nan, NA and inf included; nothing if it
+// The number that the whole word stands for, with any sign, nan, NA and inf included; absent if it
 // is none.
 std::optional<double> number_of(std::string_view word);
 // Whether a line of a text cloud is a comment: "#..." or "//...".
@@ -120,7 +120,7 @@ void require_coordinates(const HeaderLines& lines, CloudLayout& layout);
 // precedence. Names are plain ones (fields.h). nullptr when there is none.
 const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::string>& names);
 
-// The instant of a LAS file's adjusted GPS time; nothing outside of the century from 1980.
+// The instant of a LAS file's adjusted GPS time; absent outside of the century from 1980.
 std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s);
 
 // Receives rows of numbers one after the other. A row is one point, with a number for each
@@ -133,7 +133,7 @@ void read_rows(const std::filesystem::path& file, const CloudLayout& layout,
                std::span<const ScalarField> fields, const RowSink& sink,
                std::uint64_t limit = kMaxPoints);
 
-// The first row of these fields, x, y and z in front, whose coordinates are finite; nothing if
+// The first row of these fields, x, y and z in front, whose coordinates are finite; absent if
 // there is none at the cloud's beginning.
 std::optional<std::vector<double>> first_finite(const std::filesystem::path& file,
                                                 const CloudLayout& layout,

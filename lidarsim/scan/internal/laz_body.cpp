@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <cstring>
 
+#include "scan/internal/cloud_body.h"
 #include "scan/internal/las_format.h"
 #include "scan/internal/laszip_file.h"
-#include "scan/internal/rows.h"
 
 namespace plotscan::scan {
 namespace {

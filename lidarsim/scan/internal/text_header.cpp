@@ -66,7 +66,7 @@ std::vector<std::string> words_in_brackets(std::string_view name) {
   return words;
 }
 
-// Metres in the unit in brackets behind a column's name; nothing where no known length stands
+// Metres in the unit in brackets behind a column's name; absent where no known length stands
 // there.
 std::optional<double> bracketed_unit(std::string_view name) {
   static const std::map<std::string, double> kLengths = {{"m", 1},

@@ -21,7 +21,7 @@ struct WktNode {
   const WktNode* find(std::initializer_list<std::string_view> keywords) const;
 };
 
-// Parses well-known text; nothing if it is broken.
+// Parses well-known text; absent if it is broken.
 std::optional<WktNode> parse_wkt(std::string_view text);
 
 }  // namespace plotscan::scan

@@ -130,7 +130,7 @@ TEST(Estimate, WritesOneLineAPlot) {
       "plot_number,row_number,col_number,center_x_m,center_y_m,width_m,length_m,heading_deg,points,"
       "height_raw-p99_m,height_voxel-max_m,flags\n"
       "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.75,0.7,\n"
-      "2,0,0,9,9,1.5,4,28.64788975654116,0,,,\n");
+      "2,,,9,9,1.5,4,28.64788975654116,0,,,\n");
 }
 
 Estimate with_intervals() {
@@ -183,7 +183,7 @@ TEST(Estimate, TabulatesErrorsBesideTheirHeights) {
       "flags\n"
       "1,1,2,500000.125,1,1.5,4,28.64788975654116,1234,0.7,0.01,0.68,0.72,0.8125,0.02,0.77,0.86,"
       "0.03,0.02,0.05,0.06,0.1,0.75,\"few returns; no ground within reach\"\n"
-      "2,0,0,9,9,1.5,4,28.64788975654116,0,,,,,,,,,,,,,,1,\n");
+      "2,,,9,9,1.5,4,28.64788975654116,0,,,,,,,,,,,,,,1,\n");
 }
 
 TEST(Estimate, NumbersTrialsWhereThereAreSeveral) {
@@ -195,7 +195,7 @@ TEST(Estimate, NumbersTrialsWhereThereAreSeveral) {
   const std::string table = read_text(folder.path() / "heights.csv");
   EXPECT_THAT(table, ::testing::StartsWith("plot_number,trial_number,row_number,col_number,"));
   EXPECT_THAT(table, ::testing::HasSubstr("\n1,1,1,2,"));
-  EXPECT_THAT(table, ::testing::HasSubstr("\n2,2,0,0,"));
+  EXPECT_THAT(table, ::testing::HasSubstr("\n2,2,,,"));
   const Estimate read = read_estimate(folder.path());
   EXPECT_EQ(read.plots[0].trial, 1);
   EXPECT_EQ(read.plots[1].trial, 2);
@@ -232,6 +232,45 @@ TEST(Estimate, TabulatesTheNamesOfADatabasesUnits) {
   EXPECT_EQ(table_of(R"({"plot_number":7,"observationunit_name":"U-7"})"),
             "observationunit_name,row_number,col_number,plot_number,given_observationunit_name,"
             "flags\n7,,,7,U-7,\n");
+}
+
+// Names of ids as people write them; the name comes back as it is spelt.
+TEST(PlotMap, TakesIdsWhateverTheSpellingOfTheirName) {
+  const TemporaryFolder folder;
+  for (const char* name : {"PLOT_ID", "Plot ID", "plotid", "Plot_Id"}) {
+    const auto file = folder.path() / "map.geojson";
+    write_plot_features(file, {{.box = {.width_m = 1, .length_m = 4},
+                                .properties = {{"Entry", "x"}, {name, "A-12"}}}});
+    const PlotMap map = read_plot_map(file, "", 1);
+    EXPECT_EQ(map.id_property, name);
+    EXPECT_EQ(map.ids.at(0), PlotId("A-12"));
+    const auto book = folder.write("book.csv", std::string("Row,COL,") + name + "\n1,2,A-12\n");
+    EXPECT_EQ(read_named_places(book).plots.at({1, 2}).id, PlotId("A-12")) << name;
+  }
+}
+
+// Eight plots of 2 x 6 m, 3 m apart, and a border drawn around them.
+TEST(PlotMap, NotesBoxesOverOthers) {
+  const TemporaryFolder folder;
+  const auto file = folder.path() / "map.geojson";
+  std::vector<PlotFeature> plots;
+  for (int i = 0; i < 8; ++i)
+    plots.push_back({.box = {.center = {3.0 * i, 0}, .width_m = 6, .length_m = 2},
+                     .properties = {{"plot_id", i + 1}}});
+  write_plot_features(file, plots);
+  EXPECT_EQ(read_plot_map(file, "", 1).note, "");
+  plots.insert(plots.begin() + 3, {.box = {.center = {10.5, 0}, .width_m = 8, .length_m = 25},
+                                   .properties = {{"plot_id", "BORDER"}}});
+  write_plot_features(file, plots);
+  const PlotMap map = read_plot_map(file, "", 1);
+  EXPECT_THAT(map.note, HasSubstr("plot BORDER over 8 others; is a border drawn around plots"));
+  Estimate estimate{.method = "lattice", .plots = std::vector<PlotEstimate>(9)};
+  take_names(map, estimate);
+  EXPECT_THAT(estimate.diagnostics.notes.value(), ::testing::ElementsAre(map.note));
+  plots.erase(plots.begin() + 3);
+  plots[1].box.center.x() = 0.9;  // of plot 1, over more than half of it
+  write_plot_features(file, plots);
+  EXPECT_THAT(read_plot_map(file, "", 1).note, HasSubstr("plot 1 over 1 other;"));
 }
 
 TEST(Estimate, IsReadWithoutPlotsFromAFolderOfOurs) {

@@ -13,6 +13,7 @@
 #include "core/error.h"
 #include "core/geodesy.h"
 #include "core/plot_features.h"
+#include "estimate/ground_grids.h"
 #include "estimator/methods/run_on_farm.h"
 
 namespace plotscan::estimate {
@@ -226,6 +227,31 @@ TEST(VectorMap, WhatIsNoMapOfPlotsIsRefused) {
   EXPECT_THAT(refusal(shp), HasSubstr("latin.shp: its attribute \"entry\" has letters"));
   EXPECT_TRUE(is_vector_map("a/B.SHP"));
   EXPECT_FALSE(is_vector_map("plots.geojson"));
+}
+
+// As GDAL, and with it QGIS and R, opens the grids.
+TEST(GroundGrids, StateTheirSystemWhereItIsKnown) {
+  const TemporaryFolder folder;
+  ground::Surface surface{{.origin = {500000, 40}, .cell_m = 0.2, .columns = 2, .rows = 2}};
+  surface.z_m = {1, 2, 3, 4};
+  surface.sd_m = {0.01F, 0.02F, 0.03F, 0.04F};
+  surface.seen = {1, 0, 1, 0};
+  const auto name_in_gis = [&](const std::string& crs, const CoordinateUnits& units = {}) {
+    for (const char* grid : {"ground.prj", "ground_se.prj", "ground_seen.prj"})
+      fs::remove(folder.path() / grid);
+    write_ground(folder.path(), surface, units, crs);
+    GDALAllRegister();
+    const std::unique_ptr<GDALDataset> grid(
+        GDALDataset::Open((folder.path() / "ground.asc").c_str(), GDAL_OF_RASTER));
+    const OGRSpatialReference* system = grid->GetSpatialRef();
+    return std::string(system == nullptr ? "none" : system->GetName());
+  };
+  EXPECT_EQ(name_in_gis("EPSG:32632"), "WGS 84 / UTM zone 32N");
+  EXPECT_EQ(name_in_gis("EPSG:25832"), "ETRS89 / UTM zone 32N");
+  EXPECT_TRUE(fs::exists(folder.path() / "ground_se.prj"));
+  EXPECT_EQ(name_in_gis(""), "none");
+  EXPECT_EQ(name_in_gis("EPSG:32632", {kFoot_m, kFoot_m}), "none") << "UTM's, but in feet";
+  EXPECT_EQ(name_in_gis("EPSG:99999"), "none");
 }
 
 // As R's sf, geopandas and QGIS open what is written: without a member crs it would be degrees.

@@ -189,6 +189,27 @@ TEST_F(FieldPage, ShowsTheCloudInTheSystemThatWasTold) {
   EXPECT_THAT(field_of(html_)["notes"], IsEmpty());
 }
 
+// A farm whose centre lies where the equator crosses the middle of UTM's zone 32: at 500 km, 0.
+TEST_F(FieldPage, BringsAFarmOnEarthIntoTheEstimatesUtm) {
+  const fs::path farm = folder_.path() / "farm";
+  const fs::path folder = folder_.path() / "estimate";
+  fs::create_directories(farm / "truth");
+  fs::create_directories(folder);
+  folder_.write("farm/manifest.json",
+                R"({"results":{"anchor":{"latitude_deg":0,"longitude_deg":9,"altitude_m":0}}})");
+  PlotBox box{.center = {2, 3}, .width_m = 1, .length_m = 4};
+  write_plot_features(farm / "truth" / "plots.geojson", {{box, {{"height_max_m", 0.95}}}});
+  box.center.x() += 500'000;
+  estimate::write_estimate(folder, {.method = "lattice",
+                                    .plots = {{.id = 1, .box = box, .heights_m = {{"max", 0.9}}}},
+                                    .crs = "EPSG:32632"});
+  write_estimate_page({.estimate = folder, .html = html_, .truth = farm});
+  const nlohmann::json field = field_of(html_);
+  EXPECT_THAT(field["notes"], IsEmpty());
+  ASSERT_EQ(field["plots"][0]["state"], "found");
+  EXPECT_EQ(field["plots"][0]["truths"]["height_max_m"], 0.95);
+}
+
 TEST_F(FieldPage, SaysWhatLiesInOtherCoordinates) {
   const fs::path far =
       folder_.write("far.geojson", collection({feature("1", 500'000, R"("height_max_m":0.95)")}));

@@ -109,9 +109,34 @@ TEST(Run, GivesTheMapBackWithHeightsAdded) {
   const std::string table = read_text(options.output / "heights.csv");
   EXPECT_THAT(table, ::testing::StartsWith("plot_id,row_number,col_number,center_x_m"));
   EXPECT_THAT(table, HasSubstr(",checks,cultivar,density,sown\n"));
-  EXPECT_THAT(table, HasSubstr("\nA-12,R02,0,"));
+  EXPECT_THAT(table, HasSubstr("\nA-12,R02,,"));
   EXPECT_THAT(table, HasSubstr(R"(,"[1,2]","Rock, ""early""",30.5,)"));
-  EXPECT_THAT(table, HasSubstr("\n0101,0,0,"));
+  EXPECT_THAT(table, HasSubstr("\n0101,,,"));
+}
+
+// The plots of one date as the map of the next, and of a third: what was measured before is not
+// copied on.
+TEST(Run, TakesItsOwnResultsForTheNextDate) {
+  const TemporaryFolder folder;
+  RunOptions options =
+      run_in_boxes(folder, {{"plot_id", "A-12"}, {"cultivar", "Rock"}, {"height_hand3_m", 9.5}},
+                   {{"plot_id", "A-13"}, {"cultivar", "Ur"}});
+  run(options);
+  const nlohmann::json first = properties_of(options, 0);
+  ASSERT_TRUE(first.contains("given_height_hand3_m"));
+  for (const char* date : {"second", "third"}) {
+    options.boxes = options.output / "plots.geojson";
+    options.output = folder.path() / date;
+    run(options);
+    nlohmann::json expected = first;
+    expected.erase("given_height_hand3_m");
+    std::vector<std::string> names, expected_names;
+    const nlohmann::json properties = properties_of(options, 0);
+    for (const auto& [name, value] : properties.items()) names.push_back(name);
+    for (const auto& [name, value] : expected.items()) expected_names.push_back(name);
+    EXPECT_EQ(names, expected_names) << date;
+    EXPECT_EQ(properties["cultivar"], "Rock");
+  }
 }
 
 // A map with heights, such as a farm's truth: they must not pass for measured ones.

@@ -165,6 +165,21 @@ TEST(Trust, CountsWhatTheIntervalsAndFlagsSay) {
   EXPECT_DOUBLE_EQ(score.large_unflagged_share, 0.25);
 }
 
+// Errors of the greatest heights stay visible where only the mean is unsure.
+TEST(Trust, AFlagCountsForTheHeightsThatItConcerns) {
+  FieldScore field = four_plots_with_intervals();
+  for (PlotScore& plot : field.plots) {
+    plot.found->flags = {"mean height is unsure by centimetres"};
+    plot.found->heights_m["mean"] = 1;  // the truths are 0.5
+  }
+  EXPECT_EQ(height_pairs(field, "max", "height_max_m").trust.flagged, 0U);
+  EXPECT_EQ(height_pairs(field, "max", "height_max_m").trust.large_unflagged, 2U);
+  EXPECT_EQ(height_pairs(field, "mean", "height_mean_m").trust.flagged, 4U);
+  EXPECT_EQ(height_pairs(field, "mean", "height_mean_m").trust.large_unflagged, 0U);
+  field.plots[1].found->flags.emplace_back("cut");
+  EXPECT_EQ(height_pairs(field, "max", "height_max_m").trust.flagged, 1U);
+}
+
 // The interval of "max" says nothing of the mean plant.
 TEST(Trust, IntervalsCountForTheTruthThatTheHeightIsNamedAfter) {
   const FieldScore field = four_plots_with_intervals();

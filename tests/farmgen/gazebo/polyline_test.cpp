@@ -4,7 +4,7 @@
 
 #include <gtest/gtest.h>
 
-#include "gazebo/internal/shapes.h"
+#include "gazebo/internal/primitive_meshes.h"
 
 namespace plotscan::gazebo {
 namespace {

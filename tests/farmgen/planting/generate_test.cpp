@@ -14,9 +14,9 @@
 #include "core/error.h"
 #include "core/random.h"
 #include "description/load_description.h"
-#include "farm/heights.h"
+#include "farm/true_heights.h"
 #include "planting/plot_layout.h"
-#include "terrain/internal/bases.h"
+#include "terrain/internal/base_terrains.h"
 
 namespace plotscan::planting {
 namespace {

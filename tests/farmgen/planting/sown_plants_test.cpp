@@ -301,5 +301,21 @@ TEST(SownPlants, AModelIsNotStretchedWithoutBounds) {
           "trial.yaml: plants.height_m: a plant of b is to be 1.000 m high, but its model tiny"));
 }
 
+// A file in centimetres that is read as metres.
+TEST(SownPlants, ModelsTallerThanAnyCropAreNoted) {
+  const auto notes_of = [](const std::string& unit_m) {
+    const std::string model = "{name: one, unit_m: " + unit_m +
+                              ", mesh: " + (testing::models_folder() / "soybean_1.obj").string() +
+                              "}";
+    const farm::Farm farm = trial(
+        "  count: 1\n  cultivars:\n    - {name: a}\n"
+        "    - {name: b, models: [" +
+        model + "]}\n");
+    return std::ranges::find(farm.models, "one", &farm::PlantModel::name)->notes;
+  };
+  EXPECT_THAT(notes_of("1"), ::testing::IsEmpty());
+  EXPECT_THAT(notes_of("100"), ::testing::ElementsAre(HasSubstr("more than any crop of a field")));
+}
+
 }  // namespace
 }  // namespace plotscan::planting

@@ -48,6 +48,8 @@ TEST(WaypointFile, BadFilesAreRefusedWithTheirLine) {
   EXPECT_THAT(refusal("{x_m: 1, y_m: 2, altitude_m: 121}"), HasSubstr("[0.5, 120]"));
   EXPECT_THAT(refusal("{x_m: 1, y_m: 2, z_m: 3, hold_s: -1}"), HasSubstr("hold_s"));
   EXPECT_THAT(refusal("{x_m: 1, y_m: 2, z_m: 3, speed: 2}"), HasSubstr("speed"));
+  EXPECT_THAT(refusal("{x_m: 1, y_m: 2, altitute_m: 6}"),
+              AllOf(HasSubstr("altitute_m"), HasSubstr("altitude_m")));
   EXPECT_THAT(refusal("{x_m: 1, y_m: 2, z_m: 3, speed_m_s: 2}"), HasSubstr("this is the last"));
   EXPECT_THAT(refusal("{x_m: 5, y_m: 2, z_m: 3, speed_m_s: 7}\n  - {x_m: 1, y_m: 2, z_m: 3}"),
               HasSubstr("[0.01, 6]"));

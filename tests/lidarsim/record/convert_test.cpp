@@ -181,6 +181,22 @@ TEST_F(Convert, LasToLasKeepsTheUnits) {
   EXPECT_NO_THROW(convert(scan_, folder_.path() / "local.las", {.write = {.crs = "local"}}));
 }
 
+// A cloud of others is not at the centre of a farm of ours.
+TEST_F(Convert, NamesTheWorldFrameOfOurScansAlone) {
+  const auto system_of = [&](const fs::path& cloud) {
+    const fs::path out = folder_.path() / "out.las";
+    convert(cloud, out, {.replace = true});
+    return scan::crs_name(scan::read_cloud_system(out).crs);
+  };
+  EXPECT_EQ(system_of(scan_), "Plotscan world frame");
+  const fs::path others = folder_.path() / "others.ply";
+  convert(scan_, others, {});
+  EXPECT_EQ(system_of(others), "unknown");
+  convert(others, folder_.path() / "again.las", {});
+  EXPECT_NO_THROW(convert(folder_.path() / "again.las", folder_.path() / "local.las",
+                          {.write = {.crs = "local"}}));
+}
+
 // Its time is told by the file, and --start tells it better.
 TEST_F(Convert, AFormatWithoutUnitsIsNoted) {
   const fs::path feet = folder_.path() / "feet.las", metres = folder_.path() / "metres.las";

@@ -9,7 +9,7 @@
 #include "core/error.h"
 #include "lidarsim/record/ros_flight.h"
 #include "record/convert.h"
-#include "record/ros/internal/cloud.h"
+#include "record/ros/internal/cloud_message.h"
 #include "record/scan_folder.h"
 #include "temporary_folder.h"
 

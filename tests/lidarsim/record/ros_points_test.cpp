@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "record/ros/ros_points.h"
+
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
@@ -12,8 +14,7 @@
 #include "lidarsim/record/ros_flight.h"
 #include "lidarsim/record/ros_readers.h"
 #include "record/convert.h"
-#include "record/ros/internal/cloud.h"
-#include "record/ros/points.h"
+#include "record/ros/internal/cloud_message.h"
 #include "scan/point_reader.h"
 #include "temporary_folder.h"
 

@@ -7,7 +7,7 @@
 
 #include "lidarsim/record/ros_flight.h"
 #include "lidarsim/record/ros_readers.h"
-#include "record/ros/points.h"
+#include "record/ros/ros_points.h"
 #include "temporary_folder.h"
 
 // What RosRecorder writes, as readers of others see it.

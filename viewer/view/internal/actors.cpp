@@ -24,7 +24,7 @@
 #include "core/statistics.h"
 #include "scan/cloud_reader.h"
 #include "terrain/extent.h"
-#include "view/internal/surfaces.h"
+#include "view/internal/mesh_surfaces.h"
 
 namespace plotscan::view {
 namespace {

@@ -28,6 +28,16 @@ void write_values(const fs::path& file, const std::vector<Value>& values) {
   if (!out.flush()) throw WriteError(file);
 }
 
+// KITTI's poses are a camera's, and its calib.txt has the transform from the lidar to that camera
+// (Tr), with which loaders bring the poses to the lidar. These poses are the lidar's own, so Tr is
+// the identity. There are no cameras: P0 to P3, which some loaders ask for, stand for none.
+void write_calibration(const fs::path& file) {
+  TextFile out(file);
+  for (const char* matrix : {"P0", "P1", "P2", "P3", "Tr"})
+    out << matrix << ": 1 0 0 0 0 1 0 0 0 0 1 0\n";
+  out.close();
+}
+
 // Collects the points of one turn after the other.
 class ScanWriter {
  public:
@@ -109,6 +119,7 @@ class ScanWriter {
 
 ScanCounts write_labelled_scans(const fs::path& scan, const fs::path& sequence) {
   const record::FlightRecord flight = record::read_flight_record(scan);
+  write_calibration(sequence / "calib.txt");
   ScanWriter writer(flight, sequence);
   record::open_source(scan, {}).stream([&](std::span<const scan::LabelledPoint> points) {
     for (const scan::LabelledPoint& point : points) writer.add(point);

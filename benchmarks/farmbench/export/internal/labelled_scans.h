@@ -17,10 +17,10 @@ struct ScanCounts {
 
 // Cuts a scan folder's points into the sensor's turns and writes them into an existing folder as
 // SemanticKITTI lays out a sequence (Behley et al., ICCV 2019; docs/dataset.md): velodyne/N.bin,
-// labels/N.label, plants/N.plant, poses.txt, times.txt. Points are in the lidar frame of the
-// instant at which their turn began; poses are the reported ones of the lidar in the world, which
-// place the points where the cloud has them. A turn without a point has no scan. Throws InputError
-// on a plot's id beyond 65535.
+// labels/N.label, plants/N.plant, calib.txt, poses.txt, times.txt. Points are in the lidar frame of
+// the instant at which their turn began; poses are the reported ones of the lidar in the world,
+// which place the points where the cloud has them. A turn without a point has no scan. Throws
+// InputError on a plot's id beyond 65535.
 ScanCounts write_labelled_scans(const std::filesystem::path& scan,
                                 const std::filesystem::path& sequence);
 

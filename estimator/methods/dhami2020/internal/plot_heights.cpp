@@ -28,7 +28,7 @@ void append_heights(const std::vector<Eigen::Vector3f>& points, const GroundPlan
   }
 }
 
-// The plane as z over x and y; nothing where it stands upright.
+// The plane as z over x and y; absent where it stands upright.
 std::optional<estimate::PlotGround> plot_ground(const GroundPlane& plane, const PlotBox& box,
                                                 double tolerance_m) {
   constexpr double kLeastUp = 1e-6;

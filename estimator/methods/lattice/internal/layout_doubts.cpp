@@ -24,13 +24,13 @@ bool may_be_rows(const plots::FieldFit& fit) {
 
 }  // namespace
 
-std::vector<std::string> doubts_of(const plots::FieldFit& fit, bool told) {
+std::vector<std::string> doubts_of(const plots::FieldFit& fit, bool stated) {
   std::vector<std::string> doubts;
   if (are_blocks(fit))
     doubts.push_back(
         fmt::format("{} rows of the crop run across it, as of several plots side by side",
                     fit.sown_rows->rows));
-  if (!told && may_be_rows(fit))
+  if (!stated && may_be_rows(fit))
     doubts.emplace_back("may be one row of a plot: rows of crops lie as near to each other");
   return doubts;
 }

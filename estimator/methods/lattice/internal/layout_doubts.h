@@ -10,7 +10,7 @@
 
 namespace plotscan::methods::lattice {
 
-// What the flags of a trial's plots say of its layout; `told` is whether the user told it.
-std::vector<std::string> doubts_of(const plots::FieldFit& fit, bool told);
+// What the flags of a trial's plots say of its layout; `stated` is whether the user stated it.
+std::vector<std::string> doubts_of(const plots::FieldFit& fit, bool stated);
 
 }  // namespace plotscan::methods::lattice

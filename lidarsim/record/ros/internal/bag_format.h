@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "record/ros/file.h"
+#include "record/ros/message_file.h"
 
 // What the writer and the reader of bags share (wiki.ros.org/Bags/Format/2.0).
 namespace plotscan::record::ros {

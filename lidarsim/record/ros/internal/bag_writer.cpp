@@ -2,10 +2,10 @@
 #include <algorithm>
 #include <map>
 
-#include "record/ros/file.h"
 #include "record/ros/internal/bag_format.h"
 #include "record/ros/internal/binary_file.h"
-#include "record/ros/internal/definitions.h"
+#include "record/ros/internal/message_definitions.h"
+#include "record/ros/message_file.h"
 #include "scan/record_file.h"
 
 namespace plotscan::record::ros {

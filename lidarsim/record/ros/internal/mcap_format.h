@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "record/ros/file.h"
+#include "record/ros/message_file.h"
 
 // What the writer and the reader of MCAP share (mcap.dev/spec).
 namespace plotscan::record::ros {

@@ -4,10 +4,10 @@
 
 #include <zlib.h>
 
-#include "record/ros/file.h"
 #include "record/ros/internal/binary_file.h"
 #include "record/ros/internal/mcap_format.h"
 #include "record/ros/internal/unpack.h"
+#include "record/ros/message_file.h"
 
 namespace plotscan::record::ros {
 namespace {

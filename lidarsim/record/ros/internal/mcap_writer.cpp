@@ -4,10 +4,10 @@
 
 #include <fmt/core.h>
 
-#include "record/ros/file.h"
 #include "record/ros/internal/binary_file.h"
-#include "record/ros/internal/definitions.h"
 #include "record/ros/internal/mcap_format.h"
+#include "record/ros/internal/message_definitions.h"
+#include "record/ros/message_file.h"
 #include "scan/record_file.h"
 
 namespace plotscan::record::ros {

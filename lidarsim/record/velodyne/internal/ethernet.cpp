@@ -55,7 +55,7 @@ LinkHeader link_header(FrameKind kind) {
   return {kEthernetSize, kEthernetSize - 2};
 }
 
-// The frame from its IPv4 packet on; nothing if it carries none.
+// The frame from its IPv4 packet on; absent if it carries none.
 std::optional<Bytes> ip_packet(FrameKind kind, Bytes frame) {
   if (kind == FrameKind::ip) return frame;
   const LinkHeader link = link_header(kind);

@@ -27,7 +27,7 @@ struct UdpDatagram {
 // The outermost protocol of a recording's frames.
 enum class FrameKind { ethernet, linux_cooked, linux_cooked_2, ip };
 
-// The whole UDP datagram in a frame; VLAN tags (IEEE 802.1Q) are skipped. Nothing if there is none:
+// The whole UDP datagram in a frame; VLAN tags (IEEE 802.1Q) are skipped. Absent if there is none:
 // another protocol, a fragment, or fewer bytes than UDP's header promises.
 std::optional<UdpDatagram> udp_datagram(FrameKind kind, std::span<const std::uint8_t> frame);
 

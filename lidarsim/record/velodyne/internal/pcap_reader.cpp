@@ -39,7 +39,7 @@ class DatagramFile {
     kind_ = frame_kind();
   }
 
-  // The next datagram, valid until the one after it is asked for; nothing at the end.
+  // The next datagram, valid until the one after it is asked for; absent at the end.
   std::optional<CapturedDatagram> next() {
     pcap_pkthdr* header = nullptr;
     const u_char* frame = nullptr;
@@ -130,8 +130,8 @@ class HourClock {
 UtcTime start_of(std::uint32_t past_hour_us, UtcTime captured) {
   const std::int64_t captured_us = captured.time_since_epoch().count();
   const auto hours = std::llround(static_cast<double>(captured_us - past_hour_us) / kHour_us);
-  const UtcTime told{microseconds(hours * kHour_us + past_hour_us)};
-  return std::chrono::abs(told - captured) <= minutes(1) ? told : captured;
+  const UtcTime stated{microseconds(hours * kHour_us + past_hour_us)};
+  return std::chrono::abs(stated - captured) <= minutes(1) ? stated : captured;
 }
 
 [[noreturn]] void fail_empty(const std::filesystem::path& file) {
