@@ -145,8 +145,12 @@ class Steps {
 
 Ground find_ground(Columns low, double noise_m, Steps& steps) {
   const Grid grid = low.grid;
-  low = without(std::move(low), plateaus(grid, upright_layer(low, noise_m).z_m, noise_m));
-  const Layer upright = upright_layer(low, noise_m);
+  Layer upright = upright_layer(low, noise_m);
+  const std::vector<std::uint8_t> tops = plateaus(grid, upright.z_m, noise_m);
+  if (std::ranges::count(tops, 1) > 0) {
+    low = without(std::move(low), tops);
+    upright = upright_layer(low, noise_m);
+  }
   Ground ground{.z_m = lower_surface(low, upright, noise_m), .evidence = {}, .layer = {}};
   steps.done();
   LayerSurface layers = layer_surface(low, upright, noise_m);
