@@ -9,6 +9,7 @@ namespace plotscan {
 void declare_run(Program& program);
 void declare_info(Program& program);
 void declare_score(Program& program);
+void declare_series(Program& program);
 void declare_report(Program& program);
 
 // The option --id of those that take a table of measured heights.

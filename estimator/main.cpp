@@ -6,6 +6,7 @@ int main(int argc, char** argv) {
   plotscan::declare_run(program);
   plotscan::declare_info(program);
   plotscan::declare_score(program);
+  plotscan::declare_series(program);
   plotscan::declare_report(program);
   return program.run(argc, argv);
 }

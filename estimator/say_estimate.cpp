@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "say_estimate.h"
 
+#include <algorithm>
 #include <map>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "cloud/field_density.h"
 #include "core/geodesy.h"
 #include "core/text.h"
+#include "heights/flags.h"
 
 namespace plotscan {
 namespace {
@@ -111,7 +113,8 @@ void say_flags(const Program& program, const estimate::Estimate& estimate) {
   constexpr std::size_t kNamed = 5;
   std::map<std::string, std::vector<std::string>> ids_by_flag;
   for (const estimate::PlotEstimate& plot : estimate.plots) {
-    for (const std::string& flag : plot.flags) ids_by_flag[flag].push_back(plot.id.text());
+    for (const std::string& flag : plot.flags)
+      if (!heights::height_of_flag(flag)) ids_by_flag[flag].push_back(plot.id.text());
   }
   for (const auto& [flag, ids] : ids_by_flag) {
     const std::string named = ids.size() <= kNamed ? " (" + joined(ids, ", ") + ")" : "";
@@ -119,11 +122,21 @@ void say_flags(const Program& program, const estimate::Estimate& estimate) {
   }
 }
 
-void say_heights(const Program& program, const nlohmann::json& summary) {
+// ", 12 of them unsure by centimetres", of the plots with this height.
+std::string unsure_text(const estimate::Estimate& estimate, const std::string& name) {
+  const std::string flag = heights::unsure_flag(name);
+  const auto unsure = std::ranges::count_if(
+      estimate.plots, [&](const auto& plot) { return std::ranges::count(plot.flags, flag) > 0; });
+  return unsure == 0 ? "" : fmt::format(", {} of them unsure by centimetres", unsure);
+}
+
+void say_heights(const Program& program, const estimate::Estimate& estimate,
+                 const nlohmann::json& summary) {
   for (const auto& [name, height] : summary.items()) {
-    program.say("{:10} median {:.3f} m, {:.3f} to {:.3f} m, {} plots", name,
+    program.say("{:10} median {:.3f} m, {:.3f} to {:.3f} m, {} plots{}", name,
                 height["median_m"].get<double>(), height["min_m"].get<double>(),
-                height["max_m"].get<double>(), height["plots"].get<std::size_t>());
+                height["max_m"].get<double>(), height["plots"].get<std::size_t>(),
+                unsure_text(estimate, name));
   }
 }
 
@@ -135,7 +148,7 @@ void say_estimate(const Program& program, const estimate::Estimate& estimate,
   say_given(program, estimate);
   say_named(program, estimate);
   say_measured(program, estimate);
-  say_heights(program, summary);
+  say_heights(program, estimate, summary);
   say_flags(program, estimate);
 }
 

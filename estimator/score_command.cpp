@@ -10,6 +10,7 @@
 #include "commands.h"
 #include "core/angle.h"
 #include "core/column_text.h"
+#include "core/list_of.h"
 #include "core/plot_id.h"
 #include "score/run.h"
 
@@ -38,6 +39,7 @@ void say_boxes(const Program& program, const score::BoxScore& boxes) {
 }
 
 void say_errors(const Program& program, const std::vector<score::HeightScore>& heights) {
+  if (heights.empty()) return;
   program.say("{:12} {:15} {:>5} {:>7} {:>7} {:>7} {:>7} {:>7} {:>8} {:>5}", "height", "truth",
               "plots", "without", "RMSE", "bias", "MAE", "SE", "R2", "r^2");
   for (const score::HeightScore& height : heights) {
@@ -47,9 +49,6 @@ void say_errors(const Program& program, const std::vector<score::HeightScore>& h
                 column_text(100 * height.standard_error_m, 7), column_text(height.r2, 8),
                 column_text(height.correlation2, 5));
   }
-  program.say(
-      "RMSE, bias (estimate minus truth), MAE and SE (of the bias) in cm, over the plots "
-      "found");
 }
 
 // What the estimate says of its own errors; nothing where it says nothing.
@@ -71,6 +70,32 @@ void say_trust(const Program& program, const std::vector<score::HeightScore>& he
       "more, unflagged");
 }
 
+// Each truth beside the height that is named after it; with -v beside all.
+std::vector<score::HeightScore> shown_heights(const Program& program,
+                                              const std::vector<score::HeightScore>& scores,
+                                              const score::FieldScore& field) {
+  if (program.common().verbosity > 0) return scores;
+  const std::set<std::string> heights = score::estimated_heights(field);
+  return those_of(scores, [&](const score::HeightScore& score) {
+    return score::heights_beside(score.truth, heights).contains(score.height);
+  });
+}
+
+void say_heights(const Program& program, const score::Scores& scores,
+                 const std::vector<score::HeightScore>& shown) {
+  program.say("");
+  say_errors(program, shown);
+  for (const score::TrialScore& trial : scores.trials) {
+    program.say("");
+    program.say("trial {}: {} of {} plots found", trial.trial, trial.found, trial.plots);
+    say_errors(program, shown_heights(program, trial.heights, scores.field));
+  }
+  program.say(
+      "RMSE, bias (estimate minus truth), MAE and SE (of the bias) in cm, over the plots "
+      "found");
+  say_trust(program, shown);
+}
+
 void say_scores(const Program& program, const score::Scores& scores) {
   if (scores.table) {
     say_table(program, scores);
@@ -79,16 +104,9 @@ void say_scores(const Program& program, const score::Scores& scores) {
   }
   for (const std::string& note : scores.notes) program.announce("note: " + note);
   if (scores.heights.empty()) return;
-  const std::set<std::string> heights = score::estimated_heights(scores.field);
-  std::vector<score::HeightScore> shown;
-  for (const score::HeightScore& height : scores.heights) {
-    if (program.common().verbosity > 0 ||
-        score::heights_beside(height.truth, heights).contains(height.height))
-      shown.push_back(height);
-  }
-  program.say("");
-  say_errors(program, shown);
-  say_trust(program, shown);
+  const std::vector<score::HeightScore> shown =
+      shown_heights(program, scores.heights, scores.field);
+  say_heights(program, scores, shown);
   if (shown.size() < scores.heights.size())
     program.say("Every height against every truth: -v, or scores.json (-o FOLDER)");
 }

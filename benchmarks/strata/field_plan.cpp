@@ -203,6 +203,14 @@ void panel(const Field& field) {
   field.set(draw_panel(field.random));
 }
 
+// The same in a nursery, where nothing is left free between plots of a row: leaves of tall plots
+// hang over short ones.
+void nursery(const Field& field) {
+  panel(field);
+  field.set("plots.gap_width_m", 0.0);
+  field.plan.stated = Stated::sides;
+}
+
 // As users cut their clouds before they measure.
 void clipped(const Field& field) {
   draw_any(field);
@@ -288,7 +296,7 @@ const std::vector<Stratum>& strata() {
       {"gapless", gapless},   {"passes", passes},   {"maize", maize},     {"panel", panel},
       {"objects", objects},   {"border", border},   {"clipped", clipped}, {"several", several},
       {"others", others},     {"realism", realism}, {"sensors", sensors}, {"kentland", kentland},
-      {"paper", paper},       {"steep", steep}};
+      {"paper", paper},       {"steep", steep},     {"nursery", nursery}};
   return all;
 }
 

@@ -241,6 +241,8 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
   }
   write_heights(folder / "heights.csv", estimate);
   if (estimate.ground) write_ground(folder, *estimate.ground, units, estimate.crs);
+  if (!estimate.canopy_m.empty())
+    write_canopy(folder, *estimate.ground, estimate.canopy_m, units, estimate.crs);
   if (estimate.clusters.empty()) return;
   const auto feature = [](const PlotBox& box) { return PlotFeature{.box = box}; };
   write_plot_features(folder / "clusters.geojson", list_of(estimate.clusters, feature),

@@ -62,6 +62,7 @@ struct Estimate {
   std::optional<CoordinateUnits> units = {};
   Diagnostics diagnostics = {};                          // what the method learnt on its way
   std::optional<ground::Surface> ground = std::nullopt;  // in the cloud's frame
+  ground::Field canopy_m = {};  // of the ground's nodes (highest_in_cells); empty without a ground
   // Boxes of the point clusters that the plots were made from (dhami2020: before the vote); else
   // empty.
   std::vector<PlotBox> clusters = {};
@@ -71,8 +72,8 @@ struct Estimate {
 std::vector<PlotFeature> features_of(const Estimate& estimate);
 
 // Writes plots.geojson, plots.wgs84.geojson where the coordinate system is UTM's (utm_system) in
-// metres, heights.csv and, where the method has them, the ground's grids and clusters.geojson
-// (docs/estimate-format.md) into an existing folder.
+// metres, heights.csv and, where the method has them, the ground's grids, chm.asc and
+// clusters.geojson (docs/estimate-format.md) into an existing folder.
 void write_estimate(const std::filesystem::path& folder, const Estimate& estimate);
 
 // Reads an estimate folder's plots.geojson, or a GeoJSON file, Plotscan's or anyone's: heights are

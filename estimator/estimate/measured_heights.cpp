@@ -85,7 +85,7 @@ MeasuredHeights read_measured_heights(const fs::path& file,
   MeasuredHeights measured{.file = file, .id_column = table.columns[id]};
   for (const CsvTable::Line& line : table.lines) {
     const std::vector<std::string_view> fields(line.fields.begin(), line.fields.end());
-    const CsvRow row(file, line.line, table.columns, fields);
+    const CsvRow row(file, line.line, table.columns, fields, table.commas);
     if (fields[id].empty()) row.fail(id, "is empty; every plot has an id");
     std::map<std::string, double> heights_m = heights_of(row, columns);
     if (heights_m.empty()) continue;

@@ -2,6 +2,8 @@
 #include "estimate/plot_map.h"
 
 #include <algorithm>
+#include <cmath>
+#include <iterator>
 #include <set>
 
 #include <fmt/core.h>
@@ -87,13 +89,25 @@ int place_of(const fs::path& file, const CsvTable& table, const CsvTable::Line& 
              std::size_t column) {
   const std::vector<std::string_view> fields(line.fields.begin(), line.fields.end());
   return static_cast<int>(
-      CsvRow(file, line.line, table.columns, fields).integer(column, 1, kMostPlaces));
+      CsvRow(file, line.line, table.columns, fields, table.commas).integer(column, 1, kMostPlaces));
 }
 
 // What a table's column is called among the attributes of its plots. An estimate states the places
 // of its plots under these two names.
 std::string attribute_of(const std::string& column) {
   return column == "row_number" || column == "col_number" ? "given_" + column : column;
+}
+
+// "" where degrees have decimals enough.
+std::string decimals_note(const std::optional<int>& few_decimals) {
+  constexpr double kDegree_m = 111320;  // of latitude, and of longitude at the equator
+  if (!few_decimals) return "";
+  const double step_m = kDegree_m * std::pow(10, -*few_decimals);
+  return fmt::format(
+      "the map's degrees have {} decimals: corners of boxes are rounded to {:.2g} m; save it with "
+      "8 "
+      "decimals, or in the cloud's coordinates",
+      *few_decimals, step_m);
 }
 
 // Plots are measured in cells of centimetres all over, so their area is what they cost.
@@ -155,7 +169,9 @@ PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_
     for (std::size_t i = 0; i < map.plots.size(); ++i) map.ids.emplace_back(i + 1);
   }
   require_plot_size(file, map);
-  map.note = overlap_note(list_of(map.plots, &PlotFeature::box), map.ids);
+  for (const std::string& note : {decimals_note(placed.few_decimals),
+                                  overlap_note(list_of(map.plots, &PlotFeature::box), map.ids)})
+    if (!note.empty()) map.notes.push_back(note);
   return map;
 }
 
@@ -171,9 +187,9 @@ void take_names(const PlotMap& map, Estimate& estimate) {
     estimate.plots[i].column = named.column;
     estimate.plots[i].attributes = attributes(map.plots[i]);
   }
-  if (!map.note.empty()) {
+  if (!map.notes.empty()) {
     if (!estimate.diagnostics.notes) estimate.diagnostics.notes.emplace();
-    estimate.diagnostics.notes->push_back(map.note);
+    std::ranges::copy(map.notes, std::back_inserter(*estimate.diagnostics.notes));
   }
   estimate.diagnostics.boxes = {
       .plots = map.plots.size(), .id_property = map.id_property, .from_degrees = map.from_degrees};

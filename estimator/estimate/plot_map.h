@@ -19,8 +19,8 @@ struct PlotMap {
   std::vector<PlotId> ids = {};  // of the plots, all different
   // The property that holds the ids; "plot_number" where none does, and plots are numbered from 1.
   std::string id_property = "plot_number";
-  bool from_degrees = false;  // the file has longitude and latitude, which were converted
-  std::string note = {};      // what is odd about its boxes; "" where nothing is
+  bool from_degrees = false;            // the file has longitude and latitude, which were converted
+  std::vector<std::string> notes = {};  // what is odd about its boxes, a sentence each
 };
 
 inline constexpr double kMostPlot_m2 = 10000;  // of a given plot

@@ -2,6 +2,7 @@
 #include "estimate/plot_tables.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <set>
 
@@ -50,9 +51,10 @@ void add_heights(const std::vector<PlotEstimate>& plots, std::vector<Column>& co
   }
 }
 
-// A value as a field of a table: texts as they are, nothing for null, else as JSON.
+// A value as a field of a table: texts as they are, nothing for null and NaN, else as JSON.
 std::string field_of(const json& value) {
-  if (value.is_null()) return "";
+  const bool is_nan = value.is_number_float() && std::isnan(value.get<double>());
+  if (value.is_null() || is_nan) return "";
   return csv_field(value.is_string() ? value.get<std::string>() : value.dump());
 }
 
@@ -63,6 +65,14 @@ std::string attribute(const PlotEstimate& plot, const std::string& name,
   return found == plot.attributes.end() ? otherwise : field_of(*found);
 }
 
+Column attribute_column(const std::string& name) {
+  return {name, [name](const PlotEstimate& plot) { return attribute(plot, name); }};
+}
+
+Column id_column(const std::string& name) {
+  return {name, [](const PlotEstimate& plot) { return csv_field(plot.id.text()); }};
+}
+
 // The attributes of any of the plots that no other column shows.
 void add_attributes(const std::vector<PlotEstimate>& plots, std::vector<Column>& columns) {
   std::set<std::string> names;
@@ -70,14 +80,16 @@ void add_attributes(const std::vector<PlotEstimate>& plots, std::vector<Column>&
     for (const auto& [name, value] : plot.attributes.items()) names.insert(name);
   }
   for (const Column& column : columns) names.erase(column.name);
-  for (const std::string& name : names) {
-    columns.push_back({name, [name](const PlotEstimate& plot) { return attribute(plot, name); }});
-  }
+  for (const std::string& name : names) columns.push_back(attribute_column(name));
 }
 
 // The flags' reasons have neither quotes nor line ends.
 std::string quoted(const std::vector<std::string>& flags) {
   return flags.empty() ? "" : '"' + joined(flags, "; ") + '"';
+}
+
+Column flags_column() {
+  return {"flags", [](const PlotEstimate& plot) { return quoted(plot.flags); }};
 }
 
 // The place in the grid, as given or found; empty where there is none. The trial only where there
@@ -107,8 +119,7 @@ void add_box_errors(const std::vector<PlotEstimate>& plots, std::vector<Column>&
 
 std::vector<Column> columns_of(const Estimate& estimate) {
   const std::vector<PlotEstimate>& plots = estimate.plots;
-  std::vector<Column> columns = {
-      {estimate.id_property, [](const auto& plot) { return csv_field(plot.id.text()); }}};
+  std::vector<Column> columns = {id_column(estimate.id_property)};
   add_place(plots, columns);
   const std::vector<Column> box = {
       {"center_x_m", [](const auto& plot) { return format_number(plot.box.center.x()); }},
@@ -126,7 +137,7 @@ std::vector<Column> columns_of(const Estimate& estimate) {
                          return plot.confidence ? format_number(*plot.confidence) : "";
                        }});
   }
-  columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
+  columns.push_back(flags_column());
   add_attributes(plots, columns);
   return columns;
 }
@@ -134,18 +145,18 @@ std::vector<Column> columns_of(const Estimate& estimate) {
 // The columns for a database: the plots' names, their known attributes, their measured heights.
 std::vector<Column> trait_columns(const std::vector<PlotEstimate>& plots) {
   const std::string unit = "observationunit_name";
-  const auto id_of = [](const PlotEstimate& plot) { return csv_field(plot.id.text()); };
-  std::vector<Column> columns = {{unit, id_of}};
+  std::vector<Column> columns = {id_column(unit)};
   add_place(plots, columns);
   add_attributes(plots, columns);
   // An attribute of the first column's name, where the ids are another one.
   if (std::ranges::any_of(plots, [&](const auto& plot) {
-        return attribute(plot, unit, id_of(plot)) != id_of(plot);
+        const std::string id = csv_field(plot.id.text());
+        return attribute(plot, unit, id) != id;
       }))
     columns.push_back(
         {"given_" + unit, [unit](const auto& plot) { return attribute(plot, unit); }});
   add_heights(plots, columns);
-  columns.push_back({"flags", [](const auto& plot) { return quoted(plot.flags); }});
+  columns.push_back(flags_column());
   return columns;
 }
 
@@ -169,6 +180,32 @@ void write_heights(const fs::path& path, const Estimate& estimate) {
 
 void write_traits(const fs::path& path, const Estimate& estimate) {
   write_table(path, trait_columns(estimate.plots), estimate.plots);
+}
+
+void write_dated(const fs::path& path, const std::vector<DatedPlot>& plots) {
+  std::vector<PlotEstimate> lines;
+  for (const auto& [date, plot] : plots) {
+    lines.push_back(plot);
+    lines.back().attributes["date"] = date;
+  }
+  std::vector<Column> columns = {id_column("plot_id"), attribute_column("date")};
+  add_place(lines, columns);
+  add_heights(lines, columns);
+  columns.push_back(flags_column());
+  write_table(path, columns, lines);
+}
+
+void write_numbers(const fs::path& path, std::vector<PlotEstimate> plots,
+                   const std::vector<NumberColumn>& numbers) {
+  std::vector<Column> columns = {id_column("plot_id")};
+  add_place(plots, columns);
+  for (const NumberColumn& number : numbers) {
+    columns.push_back(attribute_column(number.name));
+    for (std::size_t i = 0; i < plots.size(); ++i)
+      plots[i].attributes[number.name] = number.values[i];
+  }
+  add_attributes(plots, columns);
+  write_table(path, columns, plots);
 }
 
 }  // namespace plotscan::estimate

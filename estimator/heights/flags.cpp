@@ -2,11 +2,24 @@
 #include "heights/flags.h"
 
 #include <algorithm>
+#include <string_view>
 
 namespace plotscan::heights {
+namespace {
 
-bool is_unsure(const Height& mean, const FlagOptions& options) {
-  return mean.standard_error_m > options.largest_error_m;
+constexpr std::string_view kUnsure = " height is unsure by centimetres";
+
+}  // namespace
+
+std::string unsure_flag(const std::string& name) { return name + std::string(kUnsure); }
+
+bool is_unsure(const Height& height, const FlagOptions& options) {
+  return height.standard_error_m > options.largest_error_m;
+}
+
+std::optional<std::string> height_of_flag(const std::string& flag) {
+  if (!flag.ends_with(kUnsure)) return std::nullopt;
+  return flag.substr(0, flag.size() - kUnsure.size());
 }
 
 bool is_bare(const PlotEvidence& evidence, const FlagOptions& options) {
@@ -31,9 +44,10 @@ std::vector<std::string> flags_of(const PlotEvidence& evidence,
   raise(evidence.ground.worst_error_m > options.largest_ground_error_m,
         "ground is unsure by centimetres");
   raise(is_bare(evidence, options), "canopy is too low to measure");
+  raise(evidence.reached, "plants of a taller plot beside it reach into it");
   raise(evidence.novelty > 1, "plants unlike those the calibration knows");
-  const auto mean = heights.find("mean");
-  raise(mean != heights.end() && is_unsure(mean->second, options), kUnsureMean);
+  for (const auto& [name, height] : heights)
+    if (is_unsure(height, options)) flags.push_back(unsure_flag(name));
   return flags;
 }
 

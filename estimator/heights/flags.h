@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -18,7 +19,8 @@ struct PlotEvidence {
   double top_m = 0;
   double noise_m = 0;
   PlotGround ground;
-  double novelty = 0;  // over 1: the canopy is unlike all that the calibration knows
+  bool reached = false;  // by plants of a taller plot beside it
+  double novelty = 0;    // over 1: the canopy is unlike all that the calibration knows
 };
 
 struct FlagOptions {
@@ -29,18 +31,20 @@ struct FlagOptions {
   double largest_ground_error_m = 0.025;  // standard error of any place in the plot
   double least_top_m = 0.05;              // lower and there is no crop to measure
   double least_top_sigmas = 3;            // of the heights' noise
-  double largest_error_m = 0.025;         // standard error of the mean: +-5 cm at 95 %
+  double largest_error_m = 0.025;         // standard error of a height: +-5 cm at 95 %
 };
 
-inline constexpr const char* kUnsureMean = "mean height is unsure by centimetres";
+// The flag of a height of this name ("p50") whose 95 % interval is wide, and whether it is raised.
+std::string unsure_flag(const std::string& name);
+bool is_unsure(const Height& height, const FlagOptions& options = {});
 
-// Whether that flag is raised on a plot of this mean height.
-bool is_unsure(const Height& mean, const FlagOptions& options = {});
+// The height that this flag alone speaks of; none: it speaks of all heights of the plot.
+std::optional<std::string> height_of_flag(const std::string& flag);
 
 // Whether returns show that there is no crop to measure.
 bool is_bare(const PlotEvidence& evidence, const FlagOptions& options = {});
 
-// Why the plot's heights should not be trusted; empty when they may be.
+// Why the plot's heights, or one of them, should not be trusted; empty when they may be.
 std::vector<std::string> flags_of(const PlotEvidence& evidence,
                                   const std::map<std::string, Height>& heights,
                                   const FlagOptions& options = {});

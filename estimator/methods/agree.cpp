@@ -61,9 +61,9 @@ Height height_of(const PlotEstimate& plot, const std::string& name) {
 void set(const Height& height, const std::string& name, PlotEstimate& plot) {
   plot.heights_m[name] = height.value_m;
   plot.errors[name] = {height.standard_error_m, height.low95_m, height.high95_m};
-  if (name != "mean") return;
-  std::erase(plot.flags, heights::kUnsureMean);
-  if (heights::is_unsure(height)) plot.flags.emplace_back(heights::kUnsureMean);
+  const std::string unsure = heights::unsure_flag(name);
+  std::erase(plot.flags, unsure);
+  if (heights::is_unsure(height)) plot.flags.push_back(unsure);
 }
 
 // A height in another unit, or with a digit too many, would move all others. Nobody's plants are

@@ -6,7 +6,7 @@
 namespace plotscan::methods {
 
 bool concerns(const std::string& flag, const std::string& height) {
-  return flag != heights::kUnsureMean || height == "mean";
+  return heights::height_of_flag(flag).value_or(height) == height;
 }
 
 }  // namespace plotscan::methods

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <map>
+#include <string_view>
 #include <utility>
 
 #include "cloud/field_density.h"
@@ -13,6 +14,7 @@
 #include "core/plot_features.h"
 #include "core/statistics.h"
 #include "core/text.h"
+#include "core/utc_time.h"
 #include "estimate/measured_heights.h"
 #include "estimate/plot_map.h"
 #include "estimate/plot_tables.h"
@@ -24,6 +26,8 @@ namespace fs = std::filesystem;
 namespace {
 
 using nlohmann::json;
+
+constexpr std::size_t kDay = std::string_view("2026-06-01").size();  // of an instant's text
 
 template <class Value>
 json to_json(const std::optional<Value>& value) {
@@ -252,6 +256,7 @@ estimate::Estimate run(const RunOptions& options, const ProgressReport& progress
   manifest.results = {{"plots", estimate.plots.size()},
                       {"heights", height_summary(estimate)},
                       {"diagnostics", to_json(estimate.diagnostics)}};
+  if (system.start) manifest.results["flown"] = format_utc(*system.start).substr(0, kDay);
   write_manifest(folder.path(), manifest);
   if (table) estimate::write_traits(table->path(), estimate);
   folder.commit();

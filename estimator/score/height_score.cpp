@@ -155,4 +155,20 @@ std::vector<HeightScore> score_heights(const FieldScore& field) {
   return scores;
 }
 
+std::vector<TrialScore> score_trials(const FieldScore& field) {
+  std::map<int, FieldScore> trials;
+  for (const PlotScore& plot : field.plots) trials[plot.truth.trial].plots.push_back(plot);
+  if (trials.size() < 2) return {};
+  std::vector<TrialScore> scores;
+  for (const auto& [trial, part] : trials) {
+    const auto found = std::ranges::count_if(
+        part.plots, [](const PlotScore& plot) { return plot.found.has_value(); });
+    scores.push_back({.trial = trial,
+                      .plots = part.plots.size(),
+                      .found = static_cast<std::size_t>(found),
+                      .heights = score_heights(part)});
+  }
+  return scores;
+}
+
 }  // namespace plotscan::score

@@ -72,6 +72,17 @@ HeightScore score_height(const std::string& height, const std::string& truth,
 // Every estimated height of the field against every true one, by name.
 std::vector<HeightScore> score_heights(const FieldScore& field);
 
+// The scores of one of a field's trials.
+struct TrialScore {
+  int trial = 0;          // as its plots say
+  std::size_t plots = 0;  // true ones
+  std::size_t found = 0;
+  std::vector<HeightScore> heights = {};  // as score_heights
+};
+
+// Trial by trial, in the order of their numbers; none where all true plots are of one.
+std::vector<TrialScore> score_trials(const FieldScore& field);
+
 // Which of an estimate's heights are compared with a truth: the one with its name; else, for
 // height_hand3_m, the mean, which is its expected value; where there is no such height, all of
 // them.

@@ -40,6 +40,7 @@ json to_json(const Scores& scores) {
                    {"boxes", scores.table ? json(nullptr) : json(scores.boxes)},
                    {"heights", scores.heights},
                    {"field", scores.field}};
+  if (!scores.trials.empty()) document["trials"] = scores.trials;
   if (!scores.notes.empty()) document["notes"] = scores.notes;
   if (const auto& table = scores.table) {
     document["table"] = {{"id_column", table->id_column}, {"not_found", table->not_found}};
@@ -53,6 +54,7 @@ Scores score(const std::vector<TruePlot>& truth, const estimate::Estimate& estim
   scores.field = score_field(truth, estimate, options);
   scores.boxes = score_boxes({&scores.field, 1});
   scores.heights = score_heights(scores.field);
+  scores.trials = score_trials(scores.field);
   if (const std::string& why = estimate.diagnostics.why_no_plots; !why.empty())
     scores.notes.push_back("The estimate has no plots: " + why);
   if (const std::string note = apart_note(truth, estimate); !note.empty())

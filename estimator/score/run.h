@@ -30,6 +30,7 @@ struct Scores {
   FieldScore field;
   BoxScore boxes;
   std::vector<HeightScore> heights;
+  std::vector<TrialScore> trials = {};  // the same trial by trial, where there are several
   std::vector<std::string> notes = {};  // why there is less than was asked for, a sentence each
   // Where the truth is a table: plots are found by their ids, and boxes say nothing.
   std::optional<TableMatch> table = {};

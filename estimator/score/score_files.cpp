@@ -124,6 +124,13 @@ void to_json(json& document, const BoxScore& boxes) {
               {"heading_rmse_deg", boxes.heading_rmse_rad / kDegrees}};
 }
 
+void to_json(json& document, const TrialScore& trial) {
+  document = {{"trial_number", trial.trial},
+              {"plots", trial.plots},
+              {"found", trial.found},
+              {"heights", trial.heights}};
+}
+
 void to_json(json& document, const FieldScore& field) {
   document = {
       {"method", field.method}, {"extra", field.extra}, {"plots", list_of(field.plots, plot_json)}};

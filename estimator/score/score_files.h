@@ -15,6 +15,7 @@ void to_json(nlohmann::json& document, const BoxScore& boxes);
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(HeightScore, height, truth, plots, without, rmse_m, bias_m,
                                    mae_m, standard_error_m, r2, correlation2, coverage95, flagged,
                                    large_unflagged, large_unflagged_share)
+void to_json(nlohmann::json& document, const TrialScore& trial);
 
 // A field's plots as JSON, and back. from_json throws nlohmann::json::exception on anything else.
 void to_json(nlohmann::json& document, const FieldScore& field);

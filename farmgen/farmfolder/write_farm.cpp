@@ -4,6 +4,7 @@
 #include "core/output_folder.h"
 #include "core/place_json.h"
 #include "core/stage.h"
+#include "core/text_file.h"
 #include "farm/surface_colours.h"
 #include "farmfolder/internal/plant_table.h"
 #include "farmfolder/internal/world_sdf.h"
@@ -66,6 +67,13 @@ void write_truth(const fs::path& folder, const farm::Farm& farm, int threads) {
   write_terrain(folder / "terrain.ply", farm.terrain);
 }
 
+// As it is, paths in it too.
+void keep_description(const fs::path& folder, const fs::path& description) {
+  if (description.empty()) return;
+  fs::create_directories(folder);
+  write_text_file(folder / description.filename(), read_text(description));
+}
+
 nlohmann::json results_of(const farm::Farm& farm) {
   nlohmann::json models = nlohmann::json::array();
   nlohmann::json with_light = nlohmann::json::array();
@@ -98,6 +106,7 @@ void write_farm(const farm::Farm& farm, const fs::path& folder, Manifest origin,
   OutputFolder output(folder, options.replace, origin.command, origin.inputs);
   write_models(output.path(), farm);
   write_truth(output.path() / "truth", farm, options.threads);
+  keep_description(output.path() / "description", options.description);
   report(kTruthShare);
   write_world(output.path() / "world.sdf", farm, options.threads,
               [&](double share) { report(kTruthShare + (kWorldShare - kTruthShare) * share); });

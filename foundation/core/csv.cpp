@@ -52,11 +52,15 @@ class TableText {
     ++line_;
     if (columns_ == 0) columns_ = record.fields.size();
     if (record.fields.size() != columns_) {
-      throw InputError(file_, record.line, "has {} fields; the header names {}",
-                       record.fields.size(), columns_);
+      const bool more = separator_ == ',' && record.fields.size() > columns_;
+      throw InputError(file_, record.line, "has {} fields; the header names {}{}",
+                       record.fields.size(), columns_,
+                       more ? "; where decimals have commas, separate fields by semicolons" : "");
     }
     return record;
   }
+
+  Commas commas() const { return separator_ == ',' ? Commas::separate : Commas::decimal; }
 
  private:
   std::string_view rest_of_line() const {
@@ -160,7 +164,13 @@ void CsvRow::fail(std::size_t column, const std::string& what) const {
 }
 
 double CsvRow::number(std::size_t column) const {
-  const auto value = parsed<double>(fields_[column]);
+  std::string text(fields_[column]);
+  const bool has_comma = text.find(',') != std::string::npos;
+  if (commas_ == Commas::decimal && text.find('.') == std::string::npos)
+    std::ranges::replace(text, ',', '.');
+  const auto value = parsed<double>(text);
+  if (!value && has_comma && commas_ == Commas::separate)
+    fail(column, "is not a number: decimals have a point where commas separate fields");
   if (!value) fail(column, "is not a number");
   if (!std::isfinite(*value)) fail(column, "is not finite");
   return *value;
@@ -187,7 +197,7 @@ void read_csv(const std::filesystem::path& file, const std::vector<std::string>&
   while (const std::optional<CsvTable::Line> record = records.next()) {
     for (std::size_t i = 0; i < places.size(); ++i)
       fields[i] = places[i] == kAbsent ? std::string_view() : record->fields[places[i]];
-    row(CsvRow(file, record->line, wanted, fields));
+    row(CsvRow(file, record->line, wanted, fields, records.commas()));
   }
 }
 
@@ -196,7 +206,7 @@ CsvTable read_csv_table(const std::filesystem::path& file) {
   std::optional<CsvTable::Line> header = records.next();
   if (!header) throw InputError(file, "is empty; a header line is expected");
   require_own_names(file, *header);
-  CsvTable table{.columns = std::move(header->fields)};
+  CsvTable table{.columns = std::move(header->fields), .commas = records.commas()};
   while (std::optional<CsvTable::Line> line = records.next())
     table.lines.push_back(std::move(*line));
   return table;

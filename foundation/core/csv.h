@@ -17,16 +17,23 @@ std::string format_number(double value);
 // The text as a field of a CSV line (RFC 4180): in quotes if it holds commas, quotes or line ends.
 std::string csv_field(const std::string& text);
 
+// What a table's file says of its commas.
+enum class Commas {
+  separate,  // fields
+  decimal    // are decimal signs, as those of German and French spreadsheets
+};
+
 // One line of a table that is being read: its fields by column. Errors name file, line and column.
 class CsvRow {
  public:
   CsvRow(const std::filesystem::path& file, std::size_t line,
-         const std::vector<std::string>& columns, const std::vector<std::string_view>& fields)
-      : file_(file), line_(line), columns_(columns), fields_(fields) {}
+         const std::vector<std::string>& columns, const std::vector<std::string_view>& fields,
+         Commas commas)
+      : file_(file), line_(line), columns_(columns), fields_(fields), commas_(commas) {}
 
   std::size_t line() const { return line_; }  // in the file, from 1
   std::string_view text(std::size_t column) const { return fields_[column]; }
-  // A finite number, or InputError.
+  // A finite number, or InputError. Where commas are decimal, "71,5" is 71.5.
   double number(std::size_t column) const;
   // A whole number in [low, high], or InputError.
   long long integer(std::size_t column, long long low, long long high) const;
@@ -43,12 +50,14 @@ class CsvRow {
   std::size_t line_;
   const std::vector<std::string>& columns_;
   const std::vector<std::string_view>& fields_;
+  Commas commas_;
 };
 
 // Tables are read as spreadsheets save them: a header line, fields between commas, or semicolons or
-// tabs where the header has these and no comma, quotes as in RFC 4180. Blanks around fields and
-// empty lines are skipped. InputError on a missing or empty file, a column without a name or named
-// twice, a line with another number of fields, or an open quote.
+// tabs where the header has these and no comma (commas in numbers are then decimal signs), quotes
+// as in RFC 4180. Blanks around fields and empty lines are skipped. InputError on a missing or
+// empty file, a column without a name or named twice, a line with another number of fields, or an
+// open quote.
 
 // Calls `row` for each line of a table. Its fields are in the order of `columns`, then of
 // `optional_columns` ("" where the table lacks them), whatever their order in the file. Lines that
@@ -65,6 +74,7 @@ struct CsvTable {
   };
   std::vector<std::string> columns = {};
   std::vector<Line> lines = {};
+  Commas commas = Commas::separate;
 };
 
 CsvTable read_csv_table(const std::filesystem::path& file);

@@ -1,7 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <functional>
+#include <numeric>
+#include <vector>
 
 #include <Eigen/Geometry>
 
@@ -20,6 +24,25 @@ Eigen::AlignedBox2d extent_of(
     for (const Eigen::Vector2d& corner : std::invoke(box, item).corners())
       extent.extend(frame_from_world * corner);
   return extent;
+}
+
+inline Eigen::AlignedBox2d extent_of(const PlotBox& box) { return extent_of(std::array{box}); }
+
+// Calls visit(i, j) for each pair of extents that have area in common, i being the one that starts
+// farther left, until it returns false.
+template <class Visit>
+void for_each_meeting(const std::vector<Eigen::AlignedBox2d>& extents, const Visit& visit) {
+  std::vector<std::size_t> order(extents.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return extents[i].min().x(); });
+  for (auto one = order.begin(); one != order.end(); ++one) {
+    for (auto other = std::next(one); other != order.end(); ++other) {
+      if (extents[*other].min().x() >= extents[*one].max().x()) break;
+      const bool apart = extents[*other].min().y() >= extents[*one].max().y() ||
+                         extents[*one].min().y() >= extents[*other].max().y();
+      if (!apart && !visit(*one, *other)) return;
+    }
+  }
 }
 
 }  // namespace plotscan

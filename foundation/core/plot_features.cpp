@@ -12,6 +12,7 @@
 #include "core/error.h"
 #include "core/format_version.h"
 #include "core/geodesy.h"
+#include "core/internal/decimals.h"
 #include "core/internal/rectangle_fit.h"
 #include "core/json_text.h"
 #include "core/list_of.h"
@@ -280,6 +281,7 @@ PlacedPlots placed_plots(const json& document, const std::filesystem::path& path
   if (document.contains("coordinate_system")) require_known_format(document, path);  // ours
   const Positions positions = positions_of(document, path, crs, unit_m);
   PlacedPlots placed{.from_degrees = positions.in_degrees, .units = units_of(document, path)};
+  if (positions.in_degrees) placed.few_decimals = few_decimals_of(document);
   for (const json& feature : document.at("features"))
     placed.plots.push_back(read_feature(feature, path, placed.plots.size() + 1, positions));
   return placed;

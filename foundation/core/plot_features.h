@@ -75,6 +75,8 @@ struct PlacedPlots {
   std::vector<PlotFeature> plots = {};
   bool from_degrees = false;  // the file has longitude and latitude, which were converted
   std::optional<CoordinateUnits> units = {};  // as the file states (write_plot_features)
+  // The most decimals of its degrees, where they are so few that corners are off by centimetres.
+  std::optional<int> few_decimals = {};
 };
 
 // Reads a map of plots that lies over a cloud. `crs` is the cloud's system ("EPSG:<code>", "" if

@@ -29,7 +29,8 @@ farm::Farm make_farm(const std::filesystem::path& description, const std::filesy
       {.command = options.command,
        .options = {{"description", description.filename().string()}, {"set", options.overrides}},
        .inputs = planting::input_files(described)},
-      {.replace = options.replace, .threads = options.threads}, progress);
+      {.replace = options.replace, .threads = options.threads, .description = description},
+      progress);
   return made;
 }
 

@@ -74,6 +74,7 @@ scan::CloudSystem system_of(const CloudFiles& cloud, const std::vector<Source>& 
     notes.insert(notes.end(), source.notes.begin(), source.notes.end());
   }
   system.notes.insert(system.notes.end(), notes.begin(), notes.end());
+  system.start = sources.front().info.start;
   return system;
 }
 

@@ -170,6 +170,7 @@ CloudSystem read_cloud_system(const CloudFiles& cloud) {
     const CloudSystem system = (cloud.crs ? given_system : header_system)(file, layout, cloud);
     if (!first) {
       first = system;
+      first->start = start_time_of(file, layout);
       continue;
     }
     const bool in_degrees = system.zone.has_value();

@@ -10,6 +10,7 @@
 #include "core/cloud_files.h"
 #include "core/coordinate_units.h"
 #include "core/geodesy.h"
+#include "core/utc_time.h"
 
 namespace plotscan::scan {
 
@@ -21,6 +22,8 @@ struct CloudSystem {
   CoordinateUnits units = {};  // of the file; for degrees, only that of z counts
   // Set if the file has WGS 84 longitudes and latitudes: the zone they are projected to.
   std::optional<UtmZone> zone = {};
+  // When the points of the first file begin, if it says so (as CloudInfo::start).
+  std::optional<UtcTime> start = {};
   // What to tell the user about how the file is read, one sentence each.
   std::vector<std::string> notes = {};
 

@@ -104,6 +104,16 @@ std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s) {
   return utc_of_gps(gps_s);
 }
 
+std::optional<UtcTime> start_time_of(const std::filesystem::path& cloud,
+                                     const CloudLayout& layout) {
+  const ScalarField* time = layout.find(kGpsTime);
+  if (layout.start || !layout.adjusted_gps_time || time == nullptr) return layout.start;
+  std::vector<ScalarField> fields = layout.coordinates();
+  fields.push_back(*time);
+  const auto first = first_finite(cloud, layout, fields);
+  return first ? utc_of_adjusted_gps(std::floor(first->back())) : std::nullopt;
+}
+
 Eigen::Vector3d origin_near(const Eigen::Vector3d& point_m) {
   return (point_m / kOriginStep_m).array().round() * kOriginStep_m;
 }
@@ -113,16 +123,11 @@ CloudInfo read_cloud_info(const std::filesystem::path& cloud) {
   require_lengths(cloud, layout);
   const Selection selection = select(layout);
   CloudInfo info{.points = layout.is_text ? 0 : layout.points,
-                 .start = layout.start,
+                 .start = start_time_of(cloud, layout),
                  .crs_wkt = crs_wkt_of(layout)};
   if (!has_float_coordinates(layout)) {
-    std::vector<ScalarField> fields = layout.coordinates();
-    const ScalarField* time = layout.find(kGpsTime);
-    if (time != nullptr) fields.push_back(*time);
-    const auto first = first_finite(cloud, layout, fields);
+    const auto first = first_finite(cloud, layout, layout.coordinates());
     if (first) info.origin_m = origin_near(position(*first));
-    if (first && layout.adjusted_gps_time && time != nullptr && !info.start)
-      info.start = utc_of_adjusted_gps(std::floor(first->back()));
   }
   for (const SelectedField& field : selection.known) info.fields.push_back(field.known->name);
   return info;

@@ -1,7 +1,7 @@
 // What the points of a cloud are coloured by.
 import { axesOf } from "./boxes";
 import type { Colouring } from "./cloud";
-import { classColours, classNames, cividis, growth, hex, noPlot, plasma, plotColour, viridis, type Ramp, type Rgb } from "./colours";
+import { classColours, classNames, cividis, heightRamp, hex, noPlot, plasma, plotColour, viridis, type Ramp, type Rgb } from "./colours";
 import type { Field } from "./data";
 import type { TilePoints } from "./decode";
 import { quantile } from "./numbers";
@@ -116,7 +116,7 @@ export function lookOf(mode: Mode, field: Field, grounds: Grounds, tiles: TilePo
   switch (mode) {
     case "height": {
       const surface = (grounds.ground ?? grounds.terrain)!;
-      return amounts(tiles, growth, "height above ground", "m", "from zero", (points, i) => z(points, i) - surface.height(
+      return amounts(tiles, heightRamp, "height above ground", "m", "from zero", (points, i) => z(points, i) - surface.height(
         points.tile.low[0] + cloud.origin[0] + points.tile.step * points.places[4 * i],
         points.tile.low[1] + cloud.origin[1] + points.tile.step * points.places[4 * i + 1]));
     }

@@ -1,5 +1,5 @@
 // Colours that colour-blind readers tell apart: Okabe and Ito (Color Universal Design, 2008) for kinds (the last is
-// Tol's indigo), viridis, cividis and plasma for amounts (matplotlib's, in the ten steps of plotly.py's sequential.py), blue over
+// Tol's indigo), Brewer's YlGn for heights, viridis, cividis and plasma for other amounts (matplotlib's, in the ten steps of plotly.py's sequential.py), blue over
 // grey to orange for signs, our choice.
 
 export type Rgb = [number, number, number];
@@ -45,8 +45,10 @@ export const cividis = ramp(
   "#00224e", "#123570", "#3b496c", "#575d6d", "#707173", "#8a8678", "#a59c74", "#c3b369", "#e1cc55", "#fee838");
 export const plasma = ramp(
   "#0d0887", "#46039f", "#7201a8", "#9c179e", "#bd3786", "#d8576b", "#ed7953", "#fb9f3a", "#fdca26", "#f0f921");
-// From soil to the canopy's top, ever lighter.
-export const growth = ramp("#5b4636", "#6f5d3c", "#6d7a3a", "#5d9a45", "#86bb55", "#bcd873", "#eef2a4");
+// Of heights, the taller the darker, as in plotview's pictures (viewer/view/internal/height_colours.cpp).
+const ylGn = ramp("#ffffe5", "#f7fcb9", "#d9f0a3", "#addd8e", "#78c679", "#41ab5d", "#238443", "#006837", "#004529");
+const kGround = 0.6 / 8; // where 0 m lies: bare ground is not the paper's white
+export const heightRamp: Ramp = (share) => ylGn(kGround + Math.min(Math.max(share, 0), 1) * (1 - kGround));
 export const signs = ramp("#1b5fa8", "#6fa8d6", "#e6e6e6", "#eda35c", "#b04d00");
 
 // Of what a point lies on, by its label: unlabelled, ground, crop, weed, other.

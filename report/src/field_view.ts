@@ -6,7 +6,7 @@ import type { Field, Plot } from "./data";
 import { Surface } from "./decode";
 import { button, checkbox, h, select } from "./dom";
 import { plotColumns, plotNote } from "./field_table";
-import { heightKinds, heightNames } from "./heights";
+import { firstHeight, heightKinds, heightNames } from "./heights";
 import { drawMap, mapCsv, measured, measureNames, type Measure } from "./map";
 import { counted, fixed, namedTruth, signed, truthName } from "./numbers";
 import type { Grounds } from "./place";
@@ -50,7 +50,7 @@ export class FieldView {
 
   constructor(readonly field: Field) {
     const names = heightNames(field);
-    this.height = names[0] ?? "";
+    this.height = firstHeight(names);
     this.measure = names.length ? "height" : "truth";
   }
 
@@ -175,7 +175,7 @@ export class FieldView {
     const truths = [...new Set(field.plots.flatMap((plot) => Object.keys(plot.truths)))];
     const heights = names.length ? names.map((name) => ({ value: name, label: name })) :
       truths.map((name) => ({ value: name.replace(/^height_|_m$/g, ""), label: truthName(name) }));
-    if (!names.length && heights.length) this.height = heights.find(({ value }) => value === "max")?.value ?? heights[0].value;
+    if (!names.length && heights.length) this.height = firstHeight(heights.map(({ value }) => value));
     return h("div", { class: "tools" },
       select("Show", measures.map((measure) => ({ value: measure, label: measureNames[measure] })), this.measure, (measure) => {
         this.measure = measure as Measure;

@@ -1,4 +1,5 @@
-// The heights of a page: their order, and the colour that each has in all figures.
+// The heights of a page: their order, and the colour that each has in all figures, and in plotview's pictures
+// (viewer/view/internal/height_lines.cpp).
 import type { Field } from "./data";
 
 // Which of the theme's kinds; none of the common ones is the crop's or the true ground's.
@@ -11,6 +12,9 @@ export function heightNames(field: Field): string[] {
   const order = [...kKinds.keys()];
   return [...names].sort((a, b) => (order.indexOf(a) + 1 || 99) - (order.indexOf(b) + 1 || 99) || a.localeCompare(b));
 }
+
+// The one that a page opens with: that which docs/reading-results.md recommends, else the first.
+export const firstHeight = (names: string[]): string => (names.includes("canopy_p95") ? "canopy_p95" : names[0] ?? "");
 
 // The colours of all heights of a field, whichever are shown.
 export function heightKinds(field: Field): Map<string, number> {

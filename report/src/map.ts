@@ -1,7 +1,7 @@
 // The plots from above, coloured by what is asked of them.
 import { besideTicks, canvas, line, round, text, tickTexts, type Panel } from "./axes";
 import { corners } from "./boxes";
-import { cividis, hex, signs, viridis, type Ramp, type Rgb, type Theme } from "./colours";
+import { cividis, heightRamp, hex, signs, type Ramp, type Rgb, type Theme } from "./colours";
 import type { Box, Field, Plot } from "./data";
 import { s } from "./dom";
 import { counted, csv, extremes, fixed, namedTruth } from "./numbers";
@@ -41,7 +41,7 @@ export function coloursOf(values: number[], measure: Measure): Colours {
     return { low: -high, high, ramp: signs };
   }
   if (high - low < 1e-3) [low, high] = [low - 0.01, high + 0.01];
-  return { low, high, ramp: measure === "interval" ? cividis : viridis };
+  return { low, high, ramp: measure === "interval" ? cividis : heightRamp };
 }
 
 const share = (colours: Colours, value: number): number => (value - colours.low) / (colours.high - colours.low);

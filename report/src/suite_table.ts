@@ -39,8 +39,8 @@ export function heightColumns(suite: Suite): Column<TableRow>[] {
     cm("within farms", "within_m", "root mean square of the errors less their farm's mean error"),
     plain("R² within", "r2_within", 2), plain("ρ within", "rho_within", 2, "Spearman's rank correlation within farms"),
     { title: "truths in 95 %", unit: "%", hint: "share of truths inside the method's own 95 % intervals", value: (row) => 100 * number(row, "coverage95"), shown: (row) => fixed(100 * number(row, "coverage95"), 1) },
-    plain("flagged", "flagged", 0, "found plots with a flag"),
-    plain("over 5 cm, no flag", "large_unflagged", 0, "found plots in error by more than 5 cm that carry no flag"),
+    plain("flagged", "flagged", 0, "found plots with a flag that concerns this height"),
+    plain("over 5 cm, no flag", "large_unflagged", 0, "found plots in error by more than 5 cm without a flag that concerns this height"),
     { ...plain("time", "seconds", 2, "median of the farms"), unit: "s" },
   ];
 }

@@ -1,11 +1,12 @@
+import { readFileSync } from "node:fs";
 import { drawn, type Drawn } from "./drawn";
 import { describe, expect, it } from "vitest";
-import { light } from "../src/colours";
+import { heightRamp, hex, light } from "../src/colours";
 import type { Field, Height, Plot, Suite, Sweep, TableRow } from "../src/data";
 import { errorFigure, knownHeights } from "../src/estimate";
 import { plotColumns, plotNote } from "../src/field_table";
 import { drawBars, drawHistograms, rmseBars } from "../src/figures";
-import { heightKinds, heightNames, keptKinds } from "../src/heights";
+import { firstHeight, heightKinds, heightNames, keptKinds } from "../src/heights";
 import { drawMap } from "../src/map";
 import { drawProfile, groundUnder, profileCsv, profileNote, type ProfileOptions, type SidePoint } from "../src/profile";
 import { heightColumns } from "../src/suite_table";
@@ -100,7 +101,37 @@ describe("notes", () => {
   });
 });
 
+describe("a page of plots", () => {
+  it("opens with the canopy's height where it is there", () => {
+    expect(firstHeight(all)).toBe("canopy_p95");
+    expect(firstHeight(["raw-max", "raw-p99"])).toBe("raw-max");
+    expect(firstHeight([])).toBe("");
+  });
+});
+
 describe("colours of heights", () => {
+  const source = (name: string) => readFileSync(new URL(`../../viewer/view/internal/${name}`, import.meta.url), "utf8");
+  const hexOf = (numbers: string[]) => hex(numbers.map(Number) as [number, number, number]);
+
+  it("are those of plotview's pictures", () => {
+    const lines = [...source("height_lines.cpp").matchAll(/\{"(\w+)", (k\w+)\}/g)];
+    expect(lines.length).toBe(8);
+    const kinds = heightKinds(fieldOf(plotOf("1", heightsOf(all, bare))));
+    for (const [, name, constant] of lines) {
+      const numbers = source("page.h").match(new RegExp(`Rgb ${constant}\\{(\\d+), (\\d+), (\\d+)\\}`))!;
+      expect(light.kinds[kinds.get(name)!], name).toBe(hexOf(numbers.slice(1)));
+    }
+  });
+
+  it("are plotview's from the ground to the top", () => {
+    const text = source("height_colours.cpp");
+    const steps = [...text.matchAll(/\{(\d+), (\d+), (\d+)\}/g)].map((found) => hexOf(found.slice(1)));
+    const ground = Number(text.match(/kGround = ([\d.]+);/)![1]);
+    expect(steps.length).toBe(9);
+    for (let i = 1; i < 9; ++i) expect(hex(heightRamp((i - ground) / (8 - ground)))).toBe(steps[i]);
+    expect(hex(heightRamp(-1))).toBe(hex(heightRamp(0)));
+  });
+
   it("differ, and do not depend on what else is there", () => {
     const kinds = heightKinds(fieldOf(plotOf("1", heightsOf(all, bare))));
     expect(new Set(all.map((name) => light.kinds[kinds.get(name)!])).size).toBe(8);

@@ -189,9 +189,11 @@ TEST(KeepEmptyField, IsMadeOnce) {
 
 TEST(PlanField, TellsTheWidthOfPlotsWithoutAGap) {
   for (int index = 0; index < 8; ++index) {
-    const FieldPlan plan = plan_field("test", "gapless", index, kSources);
-    EXPECT_THAT(plan.overrides, ::testing::Contains("plots.gap_width_m=0"));
-    EXPECT_NE(plan.stated, Stated::nothing);
+    for (const char* stratum : {"gapless", "nursery"}) {
+      const FieldPlan plan = plan_field("test", stratum, index, kSources);
+      EXPECT_THAT(plan.overrides, ::testing::Contains("plots.gap_width_m=0"));
+      EXPECT_NE(plan.stated, Stated::nothing);
+    }
   }
   EXPECT_EQ(plan_field("test", "ordinary", 0, kSources).stated, Stated::nothing);
 }

@@ -49,6 +49,24 @@ TEST_F(Chain, RunsFromDescriptionToScores) {
   }
 }
 
+TEST_F(Chain, JoinsTheFlightsOfASeason) {
+  succeed("farmgen generate " + testing::kSmallFarm + " -o farm --seed 101");
+  for (const std::string day : {"11", "01"}) {
+    succeed("lidarsim fly farm -o scan --force --speed 6 --format las --start 2026-06-" + day +
+            "T10:00:00Z");
+    succeed("estimator run scan/cloud.las -o estimate" + day);
+  }
+  const auto joined = nlohmann::json::parse(
+      succeed("estimator series estimate11 estimate01 -o series --json").output);
+  EXPECT_EQ(joined["plots"], 9);
+  EXPECT_EQ(joined["dates"][0]["date"], "2026-06-01");
+  EXPECT_EQ(joined["dates"][1]["date"], "2026-06-11");
+  EXPECT_EQ(joined["dates"][1]["grown"], 9);
+  EXPECT_NEAR(joined["dates"][1]["median_growth_m"].get<double>(), 0, 0.02);
+  for (const char* file : {"series.csv", "by_date.csv", "by_date.geojson", "growth.csv"})
+    EXPECT_TRUE(exists(std::string("series/") + file)) << file;
+}
+
 // Two trials, each with plots and a crop of its own; one is four times as tall as the other.
 TEST_F(Chain, TellsTrialsBesideEachOtherApart) {
   folder_.write(
@@ -70,6 +88,10 @@ TEST_F(Chain, TellsTrialsBesideEachOtherApart) {
   const auto scores = nlohmann::json::parse(scored.output);
   EXPECT_EQ(scores["boxes"]["found"], 26);
   EXPECT_EQ(scores["boxes"]["extra"], 0);
+  EXPECT_EQ(scores["trials"][0]["found"], 18);
+  EXPECT_EQ(scores["trials"][1]["heights"][0]["plots"], 8);
+  EXPECT_THAT(succeed("estimator score estimate --truth farm").output,
+              ::testing::HasSubstr("\ntrial 2: 8 of 8 plots found\nheight "));
   const auto map = nlohmann::json::parse(read_text(folder_.path() / "estimate" / "plots.geojson"));
   std::map<int, int> plots_of_trial;
   for (const auto& plot : map["features"]) ++plots_of_trial[plot["properties"]["trial_number"]];
@@ -207,7 +229,8 @@ TEST_F(Chain, GivesTheSameBytesForAnyNumberOfThreads) {
   for (const std::string file :
        {"farm#/manifest.json", "farm#/truth/plants.csv", "scan#/manifest.json", "scan#/cloud.pcd",
         "estimate#/manifest.json", "estimate#/heights.csv", "lattice#/manifest.json",
-        "lattice#/heights.csv", "lattice#/ground.asc", "lattice#/ground_se.asc"}) {
+        "lattice#/heights.csv", "lattice#/ground.asc", "lattice#/ground_se.asc",
+        "lattice#/chm.asc"}) {
     const auto with = [&file](const std::string& threads) {
       std::string name = file;
       return name.replace(name.find('#'), 1, threads);
@@ -220,6 +243,19 @@ TEST_F(Chain, AnotherSeedIsAnotherFarm) {
   succeed("farmgen generate " + testing::kSmallFarm + " -o a --seed 1");
   succeed("farmgen generate " + testing::kSmallFarm + " -o b --seed 2");
   EXPECT_NE(hash("a/truth/plants.csv"), hash("b/truth/plants.csv"));
+}
+
+TEST_F(Chain, AFarmKeepsTheDescriptionThatMakesItAgain) {
+  const std::string farm =
+      "terrain: {side_m: 20, vertices: 20}  # small\n"
+      "plots: {width_m: 1.5, length_m: 4, gap_width_m: 0.5, gap_length_m: 1, rows: [{plots: 2}]}\n"
+      "plants: {count: 9, models: [{crop: maize}]}\n";
+  folder_.write("mine.yaml", farm);
+  const std::string how = " --seed 7 --set plants.count=12 -q -o ";
+  succeed("farmgen generate mine.yaml" + how + "farm");
+  EXPECT_EQ(read_text(folder_.path() / "farm" / "description" / "mine.yaml"), farm);
+  succeed("farmgen generate farm/description/mine.yaml" + how + "again");
+  EXPECT_EQ(hash("farm/manifest.json"), hash("again/manifest.json"));  // with all files' hashes
 }
 
 TEST_F(Chain, LeavesNothingWhenInterrupted) {
@@ -273,6 +309,7 @@ TEST_F(Chain, EveryCommandExplainsTheCommonOptionsThatItUses) {
                                           {"estimator info", ""},
                                           {"estimator score", ""},
                                           {"estimator report", ""},
+                                          {"estimator series", ""},
                                           {"farmbench run", seed + threads},
                                           {"farmbench report", seed},
                                           {"farmbench export", threads},

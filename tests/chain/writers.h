@@ -32,6 +32,7 @@ inline auto writers() {
       Writer{"View", "lidarsim view $IN/scan -q -o", "out.html"},
       Writer{"Run", "estimator run $IN/scan -q -o", "out"},
       Writer{"Score", "estimator score $IN/estimate --truth $IN/farm -q -o", "out"},
+      Writer{"Series", "estimator series $IN/estimate $IN/estimate --dates a,b -q -o", "out"},
       Writer{"Report", "estimator report $IN/estimate -q -o", "out.html"},
       Writer{"ExportSuite", "farmbench export " + kSmokeSuite + " -q -o", "out"});
 }

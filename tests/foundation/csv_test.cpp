@@ -3,6 +3,8 @@
 
 #include <cmath>
 
+#include <gmock/gmock.h>
+
 #include "core/error.h"
 #include "temporary_folder.h"
 
@@ -97,6 +99,30 @@ TEST(CsvTable, ReadsWhatSpreadsheetsSave) {
   EXPECT_EQ(table("a;b\n1,5;2\n").lines.at(0).fields, (std::vector<std::string>{"1,5", "2"}));
   EXPECT_EQ(table("\r\n \na;b\n1;2\n").columns, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(table("a\tb\n1\t2").lines.at(0).fields, (std::vector<std::string>{"1", "2"}));
+}
+
+// As spreadsheets write numbers where commas are decimal signs.
+TEST(Csv, CommasAreDecimalSignsWhereOthersSeparateFields) {
+  const testing::TemporaryFolder folder;
+  const auto number = [&](const std::string& text) {
+    double read = 0;
+    read_csv(folder.write("t.csv", text), {"a", "b"}, {},
+             [&](const CsvRow& row) { read = row.number(1); });
+    return read;
+  };
+  const auto refusal = [&](const std::string& text) {
+    return message_of<InputError>([&] { number(text); });
+  };
+  EXPECT_EQ(number("a;b\n1;71,5\n"), 71.5);
+  EXPECT_EQ(number("a;b\n1;\"-0,713\"\n"), -0.713);
+  EXPECT_EQ(number("a\tb\n1\t71,5\n"), 71.5);
+  EXPECT_EQ(number("a;b\n1;71.5\n"), 71.5);
+  for (const char* text : {"1.234,5", "1,234.5", "1,2,3"})
+    EXPECT_THAT(refusal(std::string("a;b\n1;") + text), ::testing::HasSubstr("is not a number"));
+  EXPECT_THAT(refusal("a,b\n1,\"71,5\"\n"),
+              ::testing::HasSubstr("b \"71,5\" is not a number: decimals have a point where"));
+  EXPECT_THAT(refusal("a,b\n1,71,5\n"),
+              ::testing::HasSubstr("names 2; where decimals have commas, separate fields by"));
 }
 
 TEST(CsvTable, ReadsItsOwnFields) {

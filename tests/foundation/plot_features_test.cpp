@@ -142,6 +142,19 @@ constexpr const char* kFourMetresNorth =
     "[9,0],[9.00001348,0],[9.00001348,3.61896e-5],"
     "[9,3.61896e-5],[9,0]";
 
+TEST(PlotFeatures, TellDegreesOfFewDecimals) {
+  const testing::TemporaryFolder folder;
+  const auto decimals = [&](const std::string& ring, const std::string& crs = "EPSG:32632") {
+    return read_plot_features(folder.write("lonlat.geojson", foreign(ring)), crs).few_decimals;
+  };
+  EXPECT_EQ(decimals("[9,0],[9.000013,0],[9.000013,3.6e-5],[9,3.6e-5],[9,0]"), 6);
+  EXPECT_EQ(decimals("[179.99991,60],[179.99999,60],[179.99999,60.0001],[179.99991,60.0001]",
+                     "EPSG:32660"),
+            5);
+  EXPECT_EQ(decimals("[9,0],[9.000013,0],[9.000013,3.61e-5],[9,3.61e-5],[9,0]"), std::nullopt);
+  EXPECT_EQ(decimals("[500000,0],[500002,0],[500002,4],[500000,4]"), std::nullopt);  // metres
+}
+
 TEST(PlotFeatures, ConvertsLongitudeAndLatitude) {
   const testing::TemporaryFolder folder;
   for (const std::string crs :
@@ -151,6 +164,7 @@ TEST(PlotFeatures, ConvertsLongitudeAndLatitude) {
     const PlacedPlots placed =
         read_plot_features(folder.write("lonlat.geojson", text), "EPSG:32632");
     EXPECT_TRUE(placed.from_degrees);
+    EXPECT_EQ(placed.few_decimals, std::nullopt);
     const PlotBox box = placed.plots.at(0).box;
     EXPECT_NEAR(box.length_m, 0.9996 * 3.61896e-5 * 110574.276, 1e-4);
     EXPECT_NEAR(box.width_m, 0.9996 * 1.348e-5 * 111319.491, 1e-4);

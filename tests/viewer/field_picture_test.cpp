@@ -34,6 +34,7 @@ estimate::Estimate two_plots(bool flagged) {
                                       .heading_rad = 0}});
   }
   if (flagged) estimate.plots[1].flags = {"too few returns"};
+  estimate.plots[0].flags = {"mean height is unsure by centimetres"};  // of one height, not a plot
   return estimate;
 }
 

@@ -49,8 +49,8 @@ std::filesystem::path plot_cloud(const TemporaryFolder& folder) {
 bool near(const Colour& c, int red, int green, int blue) {
   return std::abs(c[0] - red) < 25 && std::abs(c[1] - green) < 25 && std::abs(c[2] - blue) < 25;
 }
-bool mean_line(const Colour& c) { return near(c, 0, 114, 178); }
-bool max_line(const Colour& c) { return near(c, 213, 94, 0); }
+bool mean_line(const Colour& c) { return near(c, 213, 94, 0); }
+bool max_line(const Colour& c) { return near(c, 0, 114, 178); }
 bool ground_line(const Colour& c) { return near(c, 34, 34, 34); }
 bool crop_points(const Colour& c) { return c[1] > c[0] + 60 && c[1] > c[2] + 15 && c[0] < 160; }
 

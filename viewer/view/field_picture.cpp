@@ -9,6 +9,7 @@
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/list_of.h"
+#include "heights/flags.h"
 #include "scan/cloud_reader.h"
 #include "view/internal/axes.h"
 #include "view/internal/box_labels.h"
@@ -50,9 +51,15 @@ Eigen::AlignedBox2d shown_part(const estimate::Estimate& estimate, double margin
   return {part.min() - margin, part.max() + margin};
 }
 
+// Whether a flag speaks of the plot as a whole, not of one of its heights.
+bool is_flagged(const estimate::PlotEstimate& plot) {
+  return !std::ranges::all_of(plot.flags, [](const std::string& flag) {
+    return heights::height_of_flag(flag).has_value();
+  });
+}
+
 std::size_t flagged(const estimate::Estimate& estimate) {
-  return std::ranges::count_if(estimate.plots,
-                               [](const auto& plot) { return !plot.flags.empty(); });
+  return std::ranges::count_if(estimate.plots, is_flagged);
 }
 
 std::string title_of(const estimate::Estimate& estimate) {
@@ -98,7 +105,7 @@ void add_boxes(Page& page, const Axes& axes, const estimate::Estimate& estimate,
   // Flagged ones last, over their neighbours.
   for (const bool with_flags : {false, true}) {
     for (const estimate::PlotEstimate& plot : estimate.plots) {
-      if (plot.flags.empty() == with_flags) continue;
+      if (is_flagged(plot) != with_flags) continue;
       auto outline =
           list_of(plot.box.corners(), [&](const auto& corner) { return axes.at(corner); });
       outline.push_back(outline.front());
@@ -118,7 +125,7 @@ void add_labels(Page& page, const Axes& axes, const estimate::Estimate& estimate
     box.center = axes.at(box.center);
     box.width_m *= axes.px_per_m().x();
     box.length_m *= axes.px_per_m().x();
-    labels.push_back({plot.id.text(), box, !plot.flags.empty()});
+    labels.push_back({plot.id.text(), box, is_flagged(plot)});
   }
   for (const PlacedLabel& label : place_labels(labels, kLabelShare * text_px)) {
     const Lettering lettering{

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <map>
-#include <numeric>
 
 #include <fmt/core.h>
 
@@ -23,24 +22,14 @@ bool overlap_by_half(const PlotBox& a, const PlotBox& b) {
 
 // The plots that lie over others, and how many these are; of two alike the first.
 std::map<std::size_t, std::size_t> covering(const std::vector<PlotBox>& boxes) {
-  const auto extents =
-      list_of(boxes, [](const PlotBox& box) { return extent_of(std::vector<PlotBox>{box}); });
-  std::vector<std::size_t> order(boxes.size());
-  std::iota(order.begin(), order.end(), std::size_t{0});
-  std::ranges::stable_sort(order, {}, [&](std::size_t i) { return extents[i].min().x(); });
+  const auto extents = list_of(boxes, [](const PlotBox& box) { return extent_of(box); });
   std::map<std::size_t, std::size_t> covered;
   std::size_t all = 0;
-  for (std::size_t at = 0; at < order.size(); ++at) {
-    const std::size_t one = order[at];
-    for (std::size_t next = at + 1; next < order.size(); ++next) {
-      const std::size_t other = order[next];
-      if (extents[other].min().x() >= extents[one].max().x()) break;
-      if (!extents[one].intersects(extents[other]) || !overlap_by_half(boxes[one], boxes[other]))
-        continue;
-      ++covered[boxes[other].area_m2() > boxes[one].area_m2() ? other : one];
-      if (++all == kMostCovered) return covered;
-    }
-  }
+  for_each_meeting(extents, [&](std::size_t one, std::size_t other) {
+    if (!overlap_by_half(boxes[one], boxes[other])) return true;
+    ++covered[boxes[other].area_m2() > boxes[one].area_m2() ? other : one];
+    return ++all < kMostCovered;
+  });
   return covered;
 }
 

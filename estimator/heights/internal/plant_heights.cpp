@@ -11,13 +11,6 @@
 namespace plotscan::heights {
 namespace {
 
-Height height_of(double value_m, double sd_m) {
-  return {.value_m = value_m,
-          .standard_error_m = sd_m,
-          .low95_m = value_m - kIntervalErrors * sd_m,
-          .high95_m = value_m + kIntervalErrors * sd_m};
-}
-
 // Neighbours in the wrong order get their mean, until all are in order (pool adjacent violators,
 // Ayer et al. 1955): the nearest ordered values in the sense of least squares.
 void put_in_order(std::span<Height* const> heights) {
@@ -89,6 +82,13 @@ FieldCanopy field_canopy(std::span<const PlotCanopy> field, const Calibration& c
 }
 
 }  // namespace
+
+Height height_of(double value_m, double standard_error_m) {
+  return {.value_m = value_m,
+          .standard_error_m = standard_error_m,
+          .low95_m = value_m - kIntervalErrors * standard_error_m,
+          .high95_m = value_m + kIntervalErrors * standard_error_m};
+}
 
 const std::map<std::string, CanopyQuantile>& canopy_quantiles() {
   static const std::map<std::string, CanopyQuantile> quantiles = {

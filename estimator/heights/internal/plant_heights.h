@@ -31,6 +31,9 @@ struct CanopyQuantile {
 };
 const std::map<std::string, CanopyQuantile>& canopy_quantiles();
 
+// With its 95 % interval.
+Height height_of(double value_m, double standard_error_m);
+
 // A plot's heights by name.
 struct PlantHeights {
   std::map<std::string, Height> heights = {};

@@ -20,6 +20,7 @@
 #include "core/list_of.h"
 #include "core/stage.h"
 #include "estimate/given_plots.h"
+#include "estimate/ground_grids.h"
 #include "heights/measure_heights.h"
 #include "methods/lattice/internal/field_notes.h"
 #include "methods/lattice/internal/field_report.h"
@@ -124,8 +125,12 @@ void add_plots(const plots::PlotField& trial, int number, const Options& options
 std::vector<estimate::PlotEstimate> plots_of(const cloud::FieldCloud& cloud, const Points& heights,
                                              const ground::Surface& surface, const Options& options,
                                              estimate::Diagnostics& diagnostics) {
-  if (!options.boxes.empty())
-    return estimate::given_plots(options.boxes, cloud.origin, options.trials);
+  if (!options.boxes.empty()) {
+    std::vector<estimate::PlotEstimate> given =
+        estimate::given_plots(options.boxes, cloud.origin, options.trials);
+    note_shift(heights, given, surface.noise_m, diagnostics);
+    return given;
+  }
   if (cloud.density_m2 < cloud::kLeastSearched_m2) {
     diagnostics.why_no_plots = too_few("plots");
     return {};
@@ -317,6 +322,7 @@ estimate::Estimate measure_field(const FoundField& field, const Options& options
   estimate::Estimate estimate = field.estimate;
   measure(estimate.plots, field.heights, field.surface, options, estimate.diagnostics);
   for (estimate::PlotEstimate& plot : estimate.plots) plot.box.center += field.origin.head<2>();
+  estimate.canopy_m = estimate::highest_in_cells(field.heights, field.surface);
   estimate.ground = moved(field.surface, field.origin);
   report(progress, 1);
   return estimate;

@@ -123,6 +123,9 @@ const ScalarField* find_field(const CloudLayout& layout, const std::vector<std::
 // The instant of a LAS file's adjusted GPS time; absent outside of the century from 1980.
 std::optional<UtcTime> utc_of_adjusted_gps(double adjusted_s);
 
+// When a cloud's points' time 0 was, if its file states it (CloudInfo::start).
+std::optional<UtcTime> start_time_of(const std::filesystem::path& cloud, const CloudLayout& layout);
+
 // Receives rows of numbers one after the other. A row is one point, with a number for each
 // requested field.
 using RowSink = std::function<void(std::span<const double> rows)>;

@@ -258,19 +258,33 @@ TEST(PlotMap, NotesBoxesOverOthers) {
     plots.push_back({.box = {.center = {3.0 * i, 0}, .width_m = 6, .length_m = 2},
                      .properties = {{"plot_id", i + 1}}});
   write_plot_features(file, plots);
-  EXPECT_EQ(read_plot_map(file, "", 1).note, "");
+  EXPECT_THAT(read_plot_map(file, "", 1).notes, ::testing::IsEmpty());
   plots.insert(plots.begin() + 3, {.box = {.center = {10.5, 0}, .width_m = 8, .length_m = 25},
                                    .properties = {{"plot_id", "BORDER"}}});
   write_plot_features(file, plots);
   const PlotMap map = read_plot_map(file, "", 1);
-  EXPECT_THAT(map.note, HasSubstr("plot BORDER over 8 others; is a border drawn around plots"));
+  EXPECT_THAT(map.notes, ::testing::ElementsAre(HasSubstr(
+                             "plot BORDER over 8 others; is a border drawn around plots")));
   Estimate estimate{.method = "lattice", .plots = std::vector<PlotEstimate>(9)};
   take_names(map, estimate);
-  EXPECT_THAT(estimate.diagnostics.notes.value(), ::testing::ElementsAre(map.note));
+  EXPECT_THAT(estimate.diagnostics.notes.value(), map.notes);
   plots.erase(plots.begin() + 3);
   plots[1].box.center.x() = 0.9;  // of plot 1, over more than half of it
   write_plot_features(file, plots);
-  EXPECT_THAT(read_plot_map(file, "", 1).note, HasSubstr("plot 1 over 1 other;"));
+  EXPECT_THAT(read_plot_map(file, "", 1).notes,
+              ::testing::ElementsAre(HasSubstr("plot 1 over 1 other;")));
+}
+
+TEST(PlotMap, NotesDegreesThatAreRoundedToDecimetres) {
+  const TemporaryFolder folder;
+  const auto file = folder.write(
+      "map.geojson",
+      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{"plot_id":7},)"
+      R"("geometry":{"type":"Polygon","coordinates":[[[9,0],[9.000018,0],[9.000018,0.000054],)"
+      R"([9,0.000054],[9,0]]]}}]})");
+  EXPECT_THAT(read_plot_map(file, "EPSG:32632", 1).notes,
+              ::testing::ElementsAre(HasSubstr("the map's degrees have 6 decimals: corners of "
+                                               "boxes are rounded to 0.11 m; save it")));
 }
 
 TEST(Estimate, IsReadWithoutPlotsFromAFolderOfOurs) {

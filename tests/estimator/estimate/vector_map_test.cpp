@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/internal/vector_map.h"
 
+#include <array>
+#include <limits>
 #include <memory>
 #include <string>
 #include <vector>
@@ -252,6 +254,27 @@ TEST(GroundGrids, StateTheirSystemWhereItIsKnown) {
   EXPECT_EQ(name_in_gis(""), "none");
   EXPECT_EQ(name_in_gis("EPSG:32632", {kFoot_m, kFoot_m}), "none") << "UTM's, but in feet";
   EXPECT_EQ(name_in_gis("EPSG:99999"), "none");
+}
+
+TEST(GroundGrids, GdalReadsTheCanopyHeightModel) {
+  const TemporaryFolder folder;
+  const ground::Grid grid{.origin = {500000, 40}, .cell_m = 0.2, .columns = 3, .rows = 2};
+  const float none = std::numeric_limits<float>::quiet_NaN();
+  write_canopy(folder.path(), grid, {0.1F, 0.2F, 0.3F, 0.4F, none, 0.6F}, {}, "EPSG:32632");
+  GDALAllRegister();
+  const std::unique_ptr<GDALDataset> chm(
+      GDALDataset::Open((folder.path() / "chm.asc").c_str(), GDAL_OF_RASTER));
+  ASSERT_NE(chm, nullptr);
+  EXPECT_STREQ(chm->GetSpatialRef()->GetName(), "WGS 84 / UTM zone 32N");
+  std::array<double, 6> place = {};
+  chm->GetGeoTransform(place.data());
+  EXPECT_NEAR(place[0], 499999.9, 1e-6);  // the north-western corner
+  EXPECT_NEAR(place[3], 40.3, 1e-6);
+  std::array<float, 6> values = {};
+  GDALRasterBand* const band = chm->GetRasterBand(1);
+  ASSERT_EQ(band->RasterIO(GF_Read, 0, 0, 3, 2, values.data(), 3, 2, GDT_Float32, 0, 0), CE_None);
+  EXPECT_EQ(values, (std::array<float, 6>{0.4F, -9999, 0.6F, 0.1F, 0.2F, 0.3F}));
+  EXPECT_EQ(band->GetNoDataValue(), -9999);
 }
 
 // As R's sf, geopandas and QGIS open what is written: without a member crs it would be degrees.

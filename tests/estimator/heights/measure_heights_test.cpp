@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "heights/measure_heights.h"
 
+#include <algorithm>
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -134,6 +136,29 @@ TEST(MeasureHeights, FlagsAPlotThatTheSurveyCuts) {
   EXPECT_THAT(plots[3].flags, Contains("part of the plot was not scanned"));
 }
 
+// The first plot's right side under leaves of a plot twice as tall: its plants are measured as they
+// would be alone, its canopy is what hangs over it.
+TEST(MeasureHeights, PlantsOfATallerPlotBesideItDoNotCount) {
+  Field field = domes(4);
+  field.boxes.resize(2);
+  field.returns.resize(2);
+  const PlotHeights alone = field.measured()[0];
+  field.boxes[1].center = field.boxes[0].center + 1.5 * field.boxes[0].width_axis();
+  field.returns[1] = dome_returns(field.boxes[1], 2, kNoise_m, 18'000, 7);
+  for (const Eigen::Vector3f& point : field.returns[1]) {
+    const Eigen::Vector2d moved =
+        point.head<2>().cast<double>() - 0.3 * field.boxes[0].width_axis();
+    if (field.boxes[0].contains(moved))
+      field.returns[0].emplace_back(moved.x(), moved.y(), point.z());
+  }
+  const PlotHeights beside = field.measured()[0];
+  EXPECT_THAT(beside.flags, Contains("plants of a taller plot beside it reach into it"));
+  EXPECT_THAT(alone.flags, Not(Contains("plants of a taller plot beside it reach into it")));
+  for (const char* name : {"max", "p95", "mean"})
+    EXPECT_NEAR(beside.heights.at(name).value_m, alone.heights.at(name).value_m, 0.05) << name;
+  EXPECT_GT(beside.heights.at("canopy_p99").value_m, alone.heights.at("max").value_m + 0.2);
+}
+
 TEST(MeasureHeights, FlagsGroundThatIsUnsureOrAbsent) {
   Field field = domes(3);
   std::ranges::fill(field.surface.sd_m, 0.05F);
@@ -170,6 +195,18 @@ TEST(MeasureHeights, FlagsPlantsUnlikeThoseKnown) {
   EXPECT_THAT(plots[0].flags, Not(Contains("plants unlike those the calibration knows")));
   EXPECT_THAT(plots[1].flags, Contains("plants unlike those the calibration knows"));
   EXPECT_GT(plots[1].heights.at("p95").standard_error_m, 1.5 * usual);
+}
+
+// Without calibration the standard errors are shares of the top, known here: some over 2.5 cm.
+TEST(MeasureHeights, FlagsEachHeightWhoseIntervalIsWide) {
+  for (const PlotHeights& plot : domes(4).measured(false)) {
+    EXPECT_THAT(plot.flags, Contains("mean height is unsure by centimetres"));
+    EXPECT_THAT(plot.flags, Not(Contains("canopy_p99 height is unsure by centimetres")));
+    for (const auto& [name, height] : plot.heights)
+      EXPECT_EQ(std::ranges::count(plot.flags, name + " height is unsure by centimetres"),
+                height.standard_error_m > 0.025 ? 1 : 0)
+          << name;
+  }
 }
 
 TEST(MeasureHeights, AnUnsureGroundWidensTheIntervals) {

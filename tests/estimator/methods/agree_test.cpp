@@ -78,17 +78,20 @@ TEST(Agree, FlagsAreThoseOfTheNewErrors) {
   Estimate estimate{.method = "lattice"};
   add_plots(0, 20, estimate);
   for (estimate::PlotEstimate& plot : estimate.plots)
-    plot.flags = {"too few returns", "mean height is unsure by centimetres"};
+    plot.flags = {"too few returns", "mean height is unsure by centimetres",
+                  "p50 height is unsure by centimetres"};
   for (estimate::PlotEstimate& plot : estimate.plots) plot.errors["mean"] = {0.03, 0.74, 0.86};
   Estimate scattered = estimate;
   agree_with(measured_in(1, 12, "height_mean_m", 0.8), estimate);
   EXPECT_LT(estimate.plots[0].errors.at("mean").standard_error_m, 0.025);
-  EXPECT_THAT(estimate.plots[0].flags, ElementsAre("too few returns"));
+  EXPECT_THAT(estimate.plots[0].flags,
+              ElementsAre("too few returns", "p50 height is unsure by centimetres"));
   MeasuredHeights uneven = measured_in(1, 12, "height_mean_m", 0.6);
   for (std::uint64_t id = 1; id <= 6; ++id) uneven.plots_m[id]["height_mean_m"] = 1;
   agree_with(uneven, scattered);
   EXPECT_THAT(scattered.plots[0].flags,
-              ElementsAre("too few returns", "mean height is unsure by centimetres"));
+              ElementsAre("too few returns", "p50 height is unsure by centimetres",
+                          "mean height is unsure by centimetres"));
 }
 
 TEST(Agree, FlagsHeightsThatAreOutOfOrderThen) {

@@ -67,10 +67,10 @@ TEST_F(MeasuredTable, IsMatchedByIdAndCountsInItsUnit) {
 }
 
 TEST_F(MeasuredTable, TakesSemicolonsAndAnIdOfTheUsersChoice) {
-  const auto table = folder_.write("ruler.csv", "entry;plot_id;height_max_cm\n3;77;81\n");
+  const auto table = folder_.write("ruler.csv", "entry;plot_id;height_max_cm\n3;77;81,25\n");
   const MeasuredPlots measured = read_measured(table, plots_to_measure(), "entry");
   EXPECT_THAT(measured.plots[2].heights_m,
-              ElementsAre(Pair("height_max_m", DoubleNear(0.81, 1e-12))));
+              ElementsAre(Pair("height_max_m", DoubleNear(0.8125, 1e-12))));
 }
 
 TEST_F(MeasuredTable, SaysWhatIsWrong) {

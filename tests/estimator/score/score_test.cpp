@@ -176,7 +176,11 @@ TEST(Trust, AFlagCountsForTheHeightsThatItConcerns) {
   EXPECT_EQ(height_pairs(field, "max", "height_max_m").trust.large_unflagged, 2U);
   EXPECT_EQ(height_pairs(field, "mean", "height_mean_m").trust.flagged, 4U);
   EXPECT_EQ(height_pairs(field, "mean", "height_mean_m").trust.large_unflagged, 0U);
-  field.plots[1].found->flags.emplace_back("cut");
+  field.plots[1].found->flags.emplace_back("p95 height is unsure by centimetres");
+  EXPECT_EQ(height_pairs(field, "max", "height_max_m").trust.flagged, 0U);
+  field.plots[1].found->flags.emplace_back("max height is unsure by centimetres");
+  EXPECT_EQ(height_pairs(field, "max", "height_max_m").trust.flagged, 1U);
+  field.plots[1].found->flags = {"cut"};
   EXPECT_EQ(height_pairs(field, "max", "height_max_m").trust.flagged, 1U);
 }
 
@@ -238,6 +242,25 @@ TEST(ScoreHeight, AMissingHeightIsCounted) {
     EXPECT_EQ(score.plots, 1U);
     EXPECT_EQ(score.without, 1U);
   }
+}
+
+TEST(ScoreHeight, EachTrialHasScoresOfItsOwn) {
+  FieldScore field = three_plots();
+  EXPECT_TRUE(score_trials(field).empty());
+  field.plots[0].truth.trial = field.plots[2].truth.trial = 1;
+  field.plots[1].truth.trial = 3;
+  const std::vector<TrialScore> trials = score_trials(field);
+  ASSERT_EQ(trials.size(), 2U);
+  EXPECT_EQ(trials[0].trial, 1);
+  EXPECT_EQ(trials[0].plots, 2U);
+  EXPECT_EQ(trials[0].found, 1U);
+  EXPECT_EQ(trials[0].heights[0].truth, "height_max_m");
+  EXPECT_NEAR(trials[0].heights[0].bias_m, 0.5 - 0.6, 1e-12);
+  EXPECT_EQ(trials[1].trial, 3);
+  EXPECT_NEAR(trials[1].heights[0].bias_m, 0.75 - 0.8, 1e-12);
+  const nlohmann::json written = trials[0];
+  EXPECT_EQ(written["trial_number"], 1);
+  EXPECT_EQ(written["heights"][1]["truth"], "height_mean_m");
 }
 
 TEST(ScoreFiles, AFieldComesBackFromJson) {

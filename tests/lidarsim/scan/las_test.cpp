@@ -107,6 +107,7 @@ TEST(Las, OurReaderReadsEveryField) {
     write_las(file, options, numbered_points(1001));
     const CloudInfo info = read_cloud_info(file);
     EXPECT_EQ(info.start, options.start);
+    EXPECT_EQ(read_cloud_system(file).start, options.start);
     EXPECT_EQ(info.crs_wkt, local_crs_wkt());
     const auto points = points_in(file);
     ASSERT_EQ(points.size(), 1001u);

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <optional>
+#include <string_view>
 
 #include <fmt/core.h>
 
@@ -14,8 +16,42 @@
 namespace plotscan::view {
 namespace {
 
-constexpr std::array<Rgb, 4> kColours = {kBlue, kOrange, kVermilion, kPurple};
+constexpr std::size_t kMostLines = 4;
+
+struct NamedColour {
+  std::string_view name;
+  Rgb colour;
+};
+// Each usual height has its own, the same as in reports (report/src/heights.ts).
+constexpr std::array<NamedColour, 8> kOfHeights = {{{"max", kBlue},
+                                                    {"p99", kOrange},
+                                                    {"p95", kPurple},
+                                                    {"p90", kDarkGrey},
+                                                    {"p50", kIndigo},
+                                                    {"mean", kVermilion},
+                                                    {"canopy_p99", kGreen},
+                                                    {"canopy_p95", kSky}}};
+constexpr std::array<Rgb, kMostLines> kOfOthers = {kBlue, kVermilion, kPurple, kOrange};
 constexpr double kIntervalOpacity = 0.3;
+
+std::optional<Rgb> own_colour(const std::string& name) {
+  const auto* const own = std::ranges::find(kOfHeights, name, &NamedColour::name);
+  return own == kOfHeights.end() ? std::nullopt : std::optional(own->colour);
+}
+
+// The names' colours; other heights get the first that none has.
+std::vector<Rgb> colours_of(const std::vector<std::string>& names) {
+  const auto own = list_of(names, own_colour);
+  std::vector<Rgb> colours;
+  for (const auto& colour : own) {
+    const auto is_free = [&](const Rgb& other) {
+      return std::ranges::count(own, std::optional(other)) == 0 &&
+             std::ranges::count(colours, other) == 0;
+    };
+    colours.push_back(colour ? *colour : *std::ranges::find_if(kOfOthers, is_free));
+  }
+  return colours;
+}
 
 std::vector<std::string> all_names(const estimate::PlotEstimate& plot) {
   return list_of(plot.heights_m, [](const auto& height) { return height.first; });
@@ -26,7 +62,7 @@ std::vector<std::string> usual_names(const estimate::PlotEstimate& plot) {
   for (const char* name : {"mean", "p95", "max"})
     if (plot.heights_m.contains(name)) names.emplace_back(name);
   if (names.empty()) names = all_names(plot);
-  names.resize(std::min(names.size(), kColours.size()));
+  names.resize(std::min(names.size(), kMostLines));
   return names;
 }
 
@@ -89,11 +125,13 @@ void draw_label(Page& page, const Eigen::Vector2d& place, const Label& label, do
 
 std::vector<HeightLine> height_lines(const estimate::PlotEstimate& plot,
                                      const std::vector<std::string>& names) {
-  if (names.size() > kColours.size())
+  if (names.size() > kMostLines)
     throw InputError(
-        fmt::format("{} heights are given; {} are drawn at most", names.size(), kColours.size()));
+        fmt::format("{} heights are given; {} are drawn at most", names.size(), kMostLines));
+  const std::vector<std::string> drawn = names.empty() ? usual_names(plot) : names;
+  const std::vector<Rgb> colours = colours_of(drawn);
   std::vector<HeightLine> lines;
-  for (const std::string& name : names.empty() ? usual_names(plot) : names) {
+  for (const std::string& name : drawn) {
     const auto height = plot.heights_m.find(name);
     if (height == plot.heights_m.end()) {
       throw InputError(fmt::format("plot {} has no height '{}'; it has: {}", plot.id.text(), name,
@@ -103,7 +141,7 @@ std::vector<HeightLine> height_lines(const estimate::PlotEstimate& plot,
                     .height_m = height->second,
                     .low_m = height->second,
                     .high_m = height->second,
-                    .colour = kColours[lines.size()]};
+                    .colour = colours[lines.size()]};
     const auto error = plot.errors.find(name);
     if (error != plot.errors.end()) {
       line.low_m = error->second.low95_m;

@@ -17,6 +17,8 @@ struct Rgb {
   std::uint8_t red = 0;
   std::uint8_t green = 0;
   std::uint8_t blue = 0;
+
+  bool operator==(const Rgb&) const = default;
 };
 
 // Colours that colour-blind readers tell apart (Okabe and Ito, "Color Universal Design", 2008).
@@ -24,6 +26,10 @@ inline constexpr Rgb kBlue{0, 114, 178};
 inline constexpr Rgb kVermilion{213, 94, 0};
 inline constexpr Rgb kPurple{204, 121, 167};
 inline constexpr Rgb kOrange{230, 159, 0};
+inline constexpr Rgb kGreen{0, 158, 115};
+inline constexpr Rgb kSky{86, 180, 233};
+inline constexpr Rgb kIndigo{51, 34, 136};
+inline constexpr Rgb kDarkGrey{77, 77, 77};
 inline constexpr Rgb kInk{34, 34, 34};
 inline constexpr Rgb kGrey{150, 150, 150};
 inline constexpr Rgb kWhite{255, 255, 255};

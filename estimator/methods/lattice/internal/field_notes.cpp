@@ -12,6 +12,9 @@
 #include "cloud/coordinate_step.h"
 #include "cloud/field_density.h"
 #include "core/angle.h"
+#include "core/list_of.h"
+#include "core/text.h"
+#include "methods/lattice/internal/shifted_boxes.h"
 
 namespace plotscan::methods::lattice {
 namespace {
@@ -19,6 +22,18 @@ namespace {
 void add_note(std::string note, estimate::Diagnostics& diagnostics) {
   if (!diagnostics.notes) diagnostics.notes.emplace();
   diagnostics.notes->push_back(std::move(note));
+}
+
+// "0.9 m east and 0.3 m south"; decimetres, of which one is not zero.
+std::string move_text(const Eigen::Vector2d& by_m) {
+  constexpr double kLeast_m = 0.05;
+  std::vector<std::string> parts;
+  if (std::abs(by_m.x()) >= kLeast_m)
+    parts.push_back(fmt::format("{:.1f} m {}", std::abs(by_m.x()), by_m.x() > 0 ? "east" : "west"));
+  if (std::abs(by_m.y()) >= kLeast_m)
+    parts.push_back(
+        fmt::format("{:.1f} m {}", std::abs(by_m.y()), by_m.y() > 0 ? "north" : "south"));
+  return joined(parts, " and ");
 }
 
 }  // namespace
@@ -81,6 +96,20 @@ void note_steps(const cloud::FieldCloud& cloud, estimate::Diagnostics& diagnosti
   }
   std::string note = cloud::step_note(steps.steps_m(), cloud.density_m2);
   if (!note.empty()) add_note(std::move(note), diagnostics);
+}
+
+void note_shift(std::span<const Eigen::Vector3f> heights,
+                const std::vector<estimate::PlotEstimate>& given, double noise_m,
+                estimate::Diagnostics& diagnostics) {
+  const auto shifted =
+      shifted_boxes(heights, list_of(given, &estimate::PlotEstimate::box), noise_m);
+  if (!shifted) return;
+  add_note(
+      fmt::format("the given boxes lie beside the canopy, which covers {:.0f} % of them; "
+                  "moved {} it would cover {:.0f} %: is the map of another survey, or in "
+                  "another coordinate system?",
+                  100 * shifted->covered, move_text(shifted->by_m), 100 * shifted->covered_there),
+      diagnostics);
 }
 
 }  // namespace plotscan::methods::lattice

@@ -1,10 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
+#include <span>
 #include <string>
+#include <vector>
+
+#include <Eigen/Core>
 
 #include "cloud/field_cloud.h"
 #include "estimate/diagnostics.h"
+#include "estimate/estimate.h"
 #include "ground/surface.h"
 #include "methods/lattice/lattice.h"
 #include "plots/plot_field.h"
@@ -33,5 +38,9 @@ void note_noise(const ground::Surface& surface, const Options& options,
                 estimate::Diagnostics& diagnostics);
 // The steps in which the cloud counts.
 void note_steps(const cloud::FieldCloud& cloud, estimate::Diagnostics& diagnostics);
+// The given boxes, of which canopy would fill more if all were moved.
+void note_shift(std::span<const Eigen::Vector3f> heights,
+                const std::vector<estimate::PlotEstimate>& given, double noise_m,
+                estimate::Diagnostics& diagnostics);
 
 }  // namespace plotscan::methods::lattice
