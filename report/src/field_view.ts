@@ -6,7 +6,7 @@ import type { Field, Plot } from "./data";
 import { Surface } from "./decode";
 import { button, checkbox, h, select } from "./dom";
 import { plotColumns, plotNote } from "./field_table";
-import { firstHeight, heightKinds, heightNames } from "./heights";
+import { firstHeight, flagLines, flagsOf, heightKinds, heightNames } from "./heights";
 import { drawMap, mapCsv, measured, measureNames, type Measure } from "./map";
 import { counted, fixed, namedTruth, signed, truthName } from "./numbers";
 import type { Grounds } from "./place";
@@ -121,7 +121,7 @@ export class FieldView {
 
   private mapNote(): string {
     const parts = [this.field.cloud ? "North is up; coordinates are the cloud's." : "North is up."];
-    if (this.field.plots.some((plot) => plot.flags.length > 0)) parts.push("Orange outlines: flagged plots.");
+    if (this.field.plots.some((plot) => flagsOf(plot, this.height).length > 0)) parts.push("Orange outlines: plots with a flag of this height.");
     if (this.field.true_boxes.some((plot) => !plot.found)) parts.push("Dashed: plots that were missed.");
     return `n = ${counted(this.field.plots.length)}. ${parts.join(" ")}`;
   }
@@ -288,7 +288,7 @@ export class FieldView {
         (plot.confidence !== undefined ? `, confidence ${fixed(plot.confidence, 2)}` : "") +
         (plot.state ? `, ${plot.state === "extra" ? "no true plot" : "found"}` : "")),
     ];
-    for (const flag of plot.flags) lines.push(h("p", { class: "warning" }, flag));
+    for (const flag of flagLines(plot)) lines.push(h("p", { class: "warning" }, flag));
     const names = Object.keys(plot.heights);
     const first = profileHeights(plot, this.height);
     const ordered = [...first, ...names.filter((name) => !first.includes(name))];

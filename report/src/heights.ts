@@ -1,6 +1,6 @@
 // The heights of a page: their order, and the colour that each has in all figures, and in plotview's pictures
 // (viewer/view/internal/height_lines.cpp).
-import type { Field } from "./data";
+import type { Field, Plot } from "./data";
 
 // Which of the theme's kinds; none of the common ones is the crop's or the true ground's.
 const kKinds = new Map([["max", 0], ["p99", 4], ["p95", 3], ["p90", 6], ["p50", 7], ["mean", 1], ["canopy_p99", 2], ["canopy_p95", 5]]);
@@ -15,6 +15,19 @@ export function heightNames(field: Field): string[] {
 
 // The one that a page opens with: that which docs/reading-results.md recommends, else the first.
 export const firstHeight = (names: string[]): string => (names.includes("canopy_p95") ? "canopy_p95" : names[0] ?? "");
+
+// Flags of one height end so (estimator/heights/flags.cpp).
+const kUnsure = " height is unsure by centimetres";
+
+// The flags of a plot that concern this height; without one, those of the plot as a whole.
+export const flagsOf = (plot: Plot, height = ""): string[] =>
+  plot.flags.filter((flag) => !flag.endsWith(kUnsure) || flag === height + kUnsure);
+
+// All flags of a plot as sentences: those of single heights in one.
+export function flagLines(plot: Plot): string[] {
+  const unsure = plot.flags.filter((flag) => flag.endsWith(kUnsure)).map((flag) => flag.slice(0, -kUnsure.length));
+  return [...flagsOf(plot), ...(unsure.length ? [`unsure by centimetres: ${unsure.join(", ")}`] : [])];
+}
 
 // The colours of all heights of a field, whichever are shown.
 export function heightKinds(field: Field): Map<string, number> {

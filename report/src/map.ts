@@ -4,6 +4,7 @@ import { corners } from "./boxes";
 import { cividis, heightRamp, hex, signs, type Ramp, type Rgb, type Theme } from "./colours";
 import type { Box, Field, Plot } from "./data";
 import { s } from "./dom";
+import { flagsOf } from "./heights";
 import { counted, csv, extremes, fixed, namedTruth } from "./numbers";
 
 export type Measure = "height" | "error" | "interval" | "confidence" | "truth";
@@ -158,15 +159,16 @@ export function drawMap({ field, measure, height, selected, pick }: MapOptions, 
   field.plots.forEach((plot, i) => {
     const fill = Number.isFinite(values[i]) ? colours.ramp(share(colours, values[i])) : undefined;
     const chosen = plot === selected;
+    const flags = flagsOf(plot, measure === "confidence" ? "" : height);
     const words = `plot ${plot.id}: ${fill ? `${fixed(values[i], centimetres ? 1 : 3)} ${unit}` : "no value"}`;
     const group = s("g", pick ? {
       class: "plot", role: "button", tabindex: chosen || (!selected && i === 0) ? 0 : -1, "aria-label": words,
       "data-plot": plot.id, "aria-pressed": chosen ? "true" : "false" } : {},
     s("polygon", {
       points: cornersOn(sheet, plot.box), fill: fill ? hex(fill) : theme.paper,
-      stroke: chosen ? "#e69f00" : plot.flags.length ? theme.kinds[1] : theme.ink,
-      "stroke-width": chosen ? 3 : plot.flags.length ? 1.8 : 0.6,
-    }, s("title", {}, words + (plot.flags.length ? ` (${plot.flags.join("; ")})` : ""))));
+      stroke: chosen ? "#e69f00" : flags.length ? theme.kinds[1] : theme.ink,
+      "stroke-width": chosen ? 3 : flags.length ? 1.8 : 0.6,
+    }, s("title", {}, words + (flags.length ? ` (${flags.join("; ")})` : ""))));
     const number = numberOn(sheet, plot, fill);
     if (number) group.append(number);
     if (pick) makeChoosable(group, field.plots, i, pick);

@@ -3,6 +3,7 @@ import * as THREE from "three";
 import { OrbitControls } from "three/examples/jsm/controls/OrbitControls.js";
 import { PointCloud } from "./cloud";
 import type { Field, Plot } from "./data";
+import { flagsOf } from "./heights";
 import { moveByKey } from "./keys";
 import { Labels } from "./labels";
 import { Pace } from "./pace";
@@ -210,7 +211,7 @@ export class Scene {
     const { place, field, selected } = this;
     const kinds = new Map<string, THREE.Vector3[]>();
     for (const plot of field.plots) {
-      const colour = plot.state === "extra" ? "#cc79a7" : plot.flags.length > 0 ? "#d55e00" : this.ink;
+      const colour = plot.state === "extra" ? "#cc79a7" : flagsOf(plot).length > 0 ? "#d55e00" : this.ink;
       if (!kinds.has(colour)) kinds.set(colour, []);
       kinds.get(colour)!.push(...outline(place, plot.box, place.tall(plot)));
     }

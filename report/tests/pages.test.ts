@@ -6,7 +6,7 @@ import type { Field, Height, Plot, Suite, Sweep, TableRow } from "../src/data";
 import { errorFigure, knownHeights } from "../src/estimate";
 import { plotColumns, plotNote } from "../src/field_table";
 import { drawBars, drawHistograms, rmseBars } from "../src/figures";
-import { firstHeight, heightKinds, heightNames, keptKinds } from "../src/heights";
+import { firstHeight, flagLines, flagsOf, heightKinds, heightNames, keptKinds } from "../src/heights";
 import { drawMap } from "../src/map";
 import { drawProfile, groundUnder, profileCsv, profileNote, type ProfileOptions, type SidePoint } from "../src/profile";
 import { heightColumns } from "../src/suite_table";
@@ -56,6 +56,23 @@ describe("the CSV of a table", () => {
     const sweep = { axes: [{ key: "altitude_m", values: [10] }, { key: "speed_m_s", values: [3] }] } as unknown as Sweep;
     const [line] = csvOf(flightColumns(sweep, () => ({ rmse: 1, found: 1 })), [flightOf([10, 3], { rmse: 0.1 + 0.2, low: 0.01, high: 0.07, found: 17 })]);
     expect(line).toMatchObject({ "altitude (m)": "10", "RMSE (cm)": "30", "RMSE low (cm)": "1", "RMSE high (cm)": "7", found: "17", plots: "18" });
+  });
+});
+
+describe("flags", () => {
+  const plot = { ...plotOf("1", heightsOf(["mean", "p50"], sure)), flags: ["too few returns", "mean height is unsure by centimetres", "p50 height is unsure by centimetres"] };
+  it("of one height concern no other", () => {
+    expect(flagsOf(plot)).toEqual(["too few returns"]);
+    expect(flagsOf(plot, "p50")).toEqual(["too few returns", "p50 height is unsure by centimetres"]);
+    expect(flagsOf({ ...plot, flags: ["ground is unsure by centimetres"] }, "p50")).toHaveLength(1);
+    expect(flagLines(plot)).toEqual(["too few returns", "unsure by centimetres: mean, p50"]);
+  });
+
+  it("mark plots on the map of the height that they concern", () => {
+    const field = fieldOf({ ...plot, flags: ["mean height is unsure by centimetres"] });
+    const widths = (height: string) => drawn(drawMap({ field, measure: "height", height }, light)).all("polygon").map(({ attributes }) => attributes["stroke-width"]);
+    expect(widths("mean")).toContain("1.8");
+    expect(widths("p50")).not.toContain("1.8");
   });
 });
 
