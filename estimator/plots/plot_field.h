@@ -19,7 +19,8 @@ struct FoundPlot {
   PlotBoxError box_error = {};
   double confidence = 0;  // 0 to 1
   bool cut_off = false;   // the box reaches over the edge of what was scanned
-  // The canopy of its row or column does not end at one side of the boxes (plot_edges.h).
+  // The canopy of its row or column does not end at one side of the boxes (without_edge in
+  // lattice.h).
   bool without_edge = false;
 };
 
@@ -30,9 +31,9 @@ struct FieldSigns {
   double filled_share = 0;   // of the rows' places from their first plot to their last
   double surface_share = 0;  // of what stands on the field: as smooth as walls and roofs
   double squareness = 0;     // misfit of ellipses over that of rectangles, as the plots' outlines
-  double straightness = 0;   // the same of all canopy in and around them (squareness.h)
+  double straightness = 0;   // the same of all canopy in and around them (plot_shape.h)
   double roughness = 0;      // scatter of the plots' upper returns about planes, over their height
-  // Scatter of these returns in small patches, in sigmas of the noise (roughness.h); NaN: not
+  // Scatter of these returns in small patches, in sigmas of the noise (plot_shape.h); NaN: not
   // known.
   double patch_scatter = kNaN;
   double unevenness = 0;       // spread over mean of the canopy, a square metre at a time, in plots
@@ -41,7 +42,7 @@ struct FieldSigns {
   double pitch_m = 0;          // from one plot to the next along their width; 0: no other
   double passage = 0;          // gap between these, over the width
   double least_gap_m = 0;      // between plots, along their length or their width
-  double gap_cover = 0;        // at most, of the gaps over that of the plots beside (gap_cover.h)
+  double gap_cover = 0;        // at most, of the gaps over that of the plots beside (plot_shape.h)
   // For a plot, over a canopy of one level in the plots' outline: Schwarz's criterion, nats.
   double evidence = 0;
 };

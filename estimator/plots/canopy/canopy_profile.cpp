@@ -151,6 +151,12 @@ double ProfileSums::mean(int begin, int end) const {
   return sums.weight > 0 ? sums.y / sums.weight : 0;
 }
 
+double ProfileSums::highest_mean(int width) const {
+  double most = 0;
+  for (int i = 0; i + width <= cells(); ++i) most = std::max(most, mean(i, i + width));
+  return most;
+}
+
 double ProfileSums::centroid(int begin, int end) const {
   const Sums sums = over(begin, end);
   return sums.y > 0 ? sums.xy / sums.y : 0.5 * (begin + end);

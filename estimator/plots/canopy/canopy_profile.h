@@ -29,6 +29,8 @@ class ProfileSums {
   int cells() const { return static_cast<int>(up_to_.size()) - 1; }
   // Weighted mean over the cells [begin, end); 0 where none was seen.
   double mean(int begin, int end) const;
+  // The highest mean over so many cells.
+  double highest_mean(int width) const;
   // Where the canopy over the cells has its middle.
   double centroid(int begin, int end) const;
   // Weighted squares about a level, and about a line that leads from one level at the beginning of

@@ -3,9 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <memory>
 
+#include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
@@ -23,41 +23,26 @@ constexpr std::size_t kAtOnce = 1 << 16;  // points of a task
 constexpr int kUnseenAround = 24;         // cells on every side: more than leaves hang over an edge
 constexpr double kMostCells = 2.5e7;      // 32 bytes each; on fields over 6 ha cells are coarser
 
-struct Bounds {
-  Eigen::Vector2d low = Eigen::Vector2d::Constant(std::numeric_limits<double>::infinity());
-  Eigen::Vector2d high = -low;
-
-  void add(const Eigen::Vector2d& place) {
-    low = low.cwiseMin(place);
-    high = high.cwiseMax(place);
-  }
-  void add(const Bounds& other) {
-    low = low.cwiseMin(other.low);
-    high = high.cwiseMax(other.high);
-  }
-};
-
-Bounds bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world) {
+Eigen::AlignedBox2d bounds_of(const FieldCanopy& field, const Eigen::Matrix2d& ab_from_world) {
   const std::span<const Eigen::Vector3f> points = field.points();
   return tbb::parallel_reduce(
-      tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), Bounds{},
-      [&](const tbb::blocked_range<std::size_t>& some, Bounds bounds) {
+      tbb::blocked_range<std::size_t>(0, points.size(), kAtOnce), Eigen::AlignedBox2d(),
+      [&](const tbb::blocked_range<std::size_t>& some, Eigen::AlignedBox2d bounds) {
         for (std::size_t i = some.begin(); i != some.end(); ++i)
-          bounds.add(ab_from_world * points[i].head<2>().cast<double>());
+          bounds.extend(ab_from_world * points[i].head<2>().cast<double>());
         return bounds;
       },
-      [](Bounds one, const Bounds& other) {
-        one.add(other);
-        return one;
+      [](const Eigen::AlignedBox2d& one, const Eigen::AlignedBox2d& other) {
+        return one.merged(other);
       });
 }
 
 // The cells that the points between bounds lie in, and unseen ones around them.
 class RasterGrid {
  public:
-  RasterGrid(const Eigen::Matrix2d& ab_from_world, const Bounds& bounds, double cell_m)
-      : ab_from_world_(ab_from_world), low_(bounds.low), cell_m_(cell_m) {
-    const Eigen::Vector2d extent = bounds.high - bounds.low;
+  RasterGrid(const Eigen::Matrix2d& ab_from_world, const Eigen::AlignedBox2d& bounds, double cell_m)
+      : ab_from_world_(ab_from_world), low_(bounds.min()), cell_m_(cell_m) {
+    const Eigen::Vector2d extent = bounds.sizes();
     while ((extent / cell_m_).prod() > kMostCells) cell_m_ *= 2;
     seen_ = (extent / cell_m_).cast<int>().array() + 1;
   }
@@ -189,8 +174,8 @@ std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes,
   const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
   std::vector<CanopyRaster> rasters(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
   tbb::task_arena(threads).execute([&] {
-    const Bounds bounds = bounds_of(field, ab_from_world);
-    if (!(bounds.low.x() <= bounds.high.x())) return;
+    const Eigen::AlignedBox2d bounds = bounds_of(field, ab_from_world);
+    if (bounds.isEmpty()) return;
     const RasterGrid grid(ab_from_world, bounds, cell_m);
     const auto returns = returns_by_cell(field, grid, scales);
     tbb::parallel_for(std::size_t{0}, scales.size(), [&](std::size_t k) {

@@ -78,6 +78,13 @@ std::size_t patches_for(std::span<const std::uint32_t> block_of_point, std::size
 
 }  // namespace
 
+Eigen::AlignedBox2f extent_of_finite(std::span<const Eigen::Vector3f> points) {
+  Eigen::AlignedBox2f extent;
+  for (const Eigen::Vector3f& point : points)
+    if (point.allFinite()) extent.extend(point.head<2>());
+  return extent;
+}
+
 double least_cover(const std::vector<double>& covers) {
   const double of_usual = kLeastOfUsualCover * self_weighted_median(covers);
   return std::clamp(of_usual, kLeastOfSeedlings, kLeastCover);
@@ -104,20 +111,15 @@ struct FieldBlocks::Block {
 
 // How many blocks cover the points; 0 where no point is finite.
 std::size_t FieldBlocks::lay_out(std::span<const Eigen::Vector3f> points) {
-  low_.setConstant(std::numeric_limits<double>::infinity());
-  Eigen::Vector2d high = -low_;
-  for (const Eigen::Vector3f& point : points) {
-    if (!point.allFinite()) continue;
-    low_ = low_.cwiseMin(point.head<2>().cast<double>());
-    high = high.cwiseMax(point.head<2>().cast<double>());
-  }
-  if (!(low_.x() <= high.x())) return 0;
-  const auto blocks = [&](double extent_m) {
-    return static_cast<std::size_t>(extent_m / block_m_) + 1;
+  const Eigen::AlignedBox2d extent = extent_of_finite(points).cast<double>();
+  if (extent.isEmpty()) return 0;
+  low_ = extent.min();
+  const auto blocks = [&](int axis) {
+    return static_cast<std::size_t>(extent.sizes()[axis] / block_m_) + 1;
   };
-  while (blocks(high.x() - low_.x()) * blocks(high.y() - low_.y()) > kMostBlocks) block_m_ *= 2;
-  along_y_ = blocks(high.y() - low_.y());
-  return blocks(high.x() - low_.x()) * along_y_;
+  while (blocks(0) * blocks(1) > kMostBlocks) block_m_ *= 2;
+  along_y_ = blocks(1);
+  return blocks(0) * along_y_;
 }
 
 // Each task fills blocks of its own with all of their points, in the points' order.

@@ -9,8 +9,12 @@
 #include <vector>
 
 #include <Eigen/Core>
+#include <Eigen/Geometry>
 
 namespace plotscan::plots {
+
+// The rectangle about all finite points; empty where there are none.
+Eigen::AlignedBox2f extent_of_finite(std::span<const Eigen::Vector3f> points);
 
 // The share of a place's returns from which something may stand there: a tenth, or of seedlings a
 // quarter of the share where half of all canopy has less, but a fiftieth. `covers` are shares of

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/lattice/box_errors.h"
-
 #include <algorithm>
 #include <cmath>
+
+#include "plots/lattice/lattice.h"
 
 namespace plotscan::plots {
 namespace {

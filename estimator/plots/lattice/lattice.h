@@ -4,10 +4,13 @@
 // Private to the library: the lattice on which a field's plots lie, and which of its places hold
 // one.
 
+#include <cstddef>
 #include <optional>
 #include <vector>
 
+#include "core/plot_box.h"
 #include "core/trial_layout.h"
+#include "plots/hints.h"
 #include "plots/layout/layout.h"
 
 namespace plotscan::plots {
@@ -71,5 +74,23 @@ TrialLayout layout_of(const Lattice& lattice);
 // steps are equal except at alleys that clearly differ. Columns are straight where they are
 // aligned; else every row has its own offset and the common pitch.
 void straighten(Lattice& lattice);
+
+// Measures size and blur of the lattice's two axes. The cover of all plots is pooled about their
+// centres; its optical depth is fitted as a blurred box, on a level of its own, and the same box at
+// the neighbours; the size is where the depth falls through half.
+void fit_edges(Lattice& lattice);
+
+// Standard errors of a box, the same for all plots of the lattice. Errors of a centre are those of
+// the lattice fitted to all centres; a side that the user gave has none.
+PlotBoxError box_error(const Lattice& lattice, const Hints& hints);
+
+// By place: whether most plots of its row or column show no edge at one of their sides, where
+// others do. Such plots are narrower or wider than the others, as guard plots are, pieces of a
+// strip that runs on, or another crop touches them.
+std::vector<bool> without_edge(const Lattice& lattice);
+
+// How many places show no edge at one of their sides, where others do: if they are many, the
+// lattice is not that of their plots.
+std::size_t count_edgeless(const Lattice& lattice);
 
 }  // namespace plotscan::plots

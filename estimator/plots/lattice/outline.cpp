@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/lattice/outline.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include "plots/lattice/depth_profile.h"
+#include "plots/lattice/lattice.h"
 
 namespace plotscan::plots {
 namespace {

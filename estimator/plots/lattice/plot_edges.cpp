@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/lattice/plot_edges.h"
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -9,6 +7,7 @@
 
 #include "core/statistics.h"
 #include "plots/lattice/internal/place_canopy.h"
+#include "plots/lattice/lattice.h"
 
 namespace plotscan::plots {
 namespace {

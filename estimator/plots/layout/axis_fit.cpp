@@ -225,8 +225,7 @@ Line line_of(const RowView& view, const std::vector<std::vector<Band>>& strips,
 }
 
 AxisFit put_together(const Line& line, AxisFit fit) {
-  fit.seen_shape = fit.shape;
-  fit.seen = fit.begins;
+  fit.band_size = fit.shape.size;
   if (line.hint.side_m || has_told_count(line, fit)) return fit;  // the bands are the plots
   if (const auto plots = drilled_plots(middles_of(line, fit), kMostSpacing_m / line.cell_m,
                                        kLeastGap_m / line.cell_m)) {
@@ -265,8 +264,7 @@ std::optional<AxisFit> fit_touching(const Line& line) {
   if (!plots) return std::nullopt;
   AxisFit fit{.shape = {.size = static_cast<int>(plots->side), .blur = 0}, .touching = plots->side};
   fit.begins = rounded(plots->begins);
-  fit.seen_shape = fit.shape;
-  fit.seen = fit.begins;
+  fit.band_size = fit.shape.size;
   return fit;
 }
 
@@ -275,12 +273,6 @@ std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile) {
   for (const int begin : fit.begins[std::min(profile, fit.begins.size() - 1)])
     bands.push_back({begin, begin + fit.shape.size});
   return bands;
-}
-
-double bands_cost(const Line& line, const Segmentation& bands) {
-  const Segmentation again = bands_at(line.profiles, bands.shape, bands.begins);
-  return again.misfit + line.price * (again.parameters +
-                                      2 * irregular_steps(bands.begins, bands.shape, line.cell_m));
 }
 
 }  // namespace plotscan::plots

@@ -38,9 +38,8 @@ struct AxisFit {
   double misfit = std::numeric_limits<double>::infinity();
   double parameters = 0;
   std::optional<double> touching = std::nullopt;  // side of plots without gaps between them, cells
-  double row_spacing = 0;     // in cells, of drill rows that were put together; 0 for none
-  BandShape seen_shape = {};  // the bands before that,
-  std::vector<std::vector<int>> seen = {};
+  double row_spacing = 0;  // in cells, of drill rows that were put together; 0 for none
+  int band_size = 0;       // of the bands before that
 
   double cost(double price) const { return misfit + price * parameters; }
 };
@@ -70,8 +69,5 @@ AxisFit put_together(const Line& line, AxisFit fit);
 std::optional<AxisFit> fit_touching(const Line& line);
 
 std::vector<Band> bands_of(const AxisFit& fit, std::size_t profile);
-
-// The cost of these bands on a line other than their own.
-double bands_cost(const Line& line, const Segmentation& bands);
 
 }  // namespace plotscan::plots

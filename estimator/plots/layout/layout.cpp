@@ -3,8 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <iterator>
-#include <limits>
 #include <utility>
 
 #include "core/statistics.h"
@@ -47,8 +45,7 @@ void leave_out_missing(Layout& layout) {
 Layout layout_from(const RowView& view, const AxisFit& r_fit, const AxisFit& c_fit) {
   Layout layout{.view = view, .r_shape = r_fit.shape, .c_shape = c_fit.shape};
   layout.aligned = c_fit.begins.size() == 1;
-  layout.r_seen = {.shape = r_fit.seen_shape, .begins = r_fit.seen.front()};
-  layout.c_seen = {.shape = c_fit.seen_shape, .begins = c_fit.seen.front()};
+  layout.narrower_band = std::min(r_fit.band_size, c_fit.band_size);
   layout.row_spacing = c_fit.row_spacing;
   layout.r_touching = r_fit.touching;
   layout.c_touching = c_fit.touching;
@@ -169,27 +166,6 @@ std::vector<Layout> layouts_in(const RowView& view, const Hints& hints, LineMode
   return layouts_on(view, {{.model = model}, {.model = model}});
 }
 
-// Keeps, of the layouts with columns through all rows, the one that explains the whole field best:
-// along both axes, where all plots' edges add up, and cell by cell.
-void leave_best_aligned(const RowView& view, LineModel model, const LayoutCriterion& criterion,
-                        std::vector<Layout>& layouts) {
-  const Line a = line_of(view, {whole(view.c_cells())}, {.model = model});
-  const Line b = line_of(view.turned(), {whole(view.r_cells())}, {.model = model});
-  const auto cost = [&](const Layout& layout) {
-    const bool turned = layout.view.swapped;
-    return bands_cost(turned ? b : a, layout.r_seen) + bands_cost(turned ? a : b, layout.c_seen) +
-           criterion(layout);
-  };
-  const Layout* best = nullptr;
-  for (const Layout& layout : layouts)
-    if (layout.aligned && (best == nullptr || cost(layout) < cost(*best))) best = &layout;
-  if (best == nullptr) return;
-  std::vector<Layout> left = {*best};
-  std::ranges::copy_if(layouts, std::back_inserter(left),
-                       [](const Layout& layout) { return !layout.aligned; });
-  layouts = std::move(left);
-}
-
 // Whether the layout's plots are one by one the drill rows that another's consist of: too narrow
 // for two of them.
 bool are_rows_of(const Layout& layout, const Layout& drilled) {
@@ -302,9 +278,8 @@ std::optional<Layout> clearest(const std::vector<Layout>& layouts) {
 
 // The clearest of the layouts, those of the user's hints; without rows where none is.
 Layout best_of(std::vector<Layout> layouts, const RowView& view, const Hints& hints,
-               LineModel model, const LayoutCriterion& criterion) {
+               const LayoutCriterion& criterion) {
   leave_out_drill_rows(layouts);
-  if (model != LineModel::touching) leave_best_aligned(view, model, criterion, layouts);
   for (Layout& layout : layouts) layout.aligned = layout.aligned || is_in_columns(layout);
   if (!hints.tell_layout()) add_in_columns(layouts);
   const double without = criterion({.view = view});
@@ -329,8 +304,7 @@ bool are_parts_of(const Layout& parts, const Layout& whole) {
 
 // Whether the bands that show are as narrow as drill rows.
 bool has_narrow_bands(const Layout& layout) {
-  const int narrower = std::min(layout.r_seen.shape.size, layout.c_seen.shape.size);
-  return !layout.rows.empty() && narrower * layout.view.cell_m() < kMostSpacing_m;
+  return !layout.rows.empty() && layout.narrower_band * layout.view.cell_m() < kMostSpacing_m;
 }
 
 }  // namespace
@@ -370,10 +344,10 @@ Layout best_layout(const CanopyRaster& raster, const Hints& hints, LineModel mod
   const bool counted = hints.rows || hints.columns || hints.plots;
   if (counted && model == LineModel::free_ends) model = LineModel::even_ends;
   const LayoutCriterion criterion(raster);
-  Layout best = best_of(layouts_in(view, hints, model), view, hints, model, criterion);
+  Layout best = best_of(layouts_in(view, hints, model), view, hints, criterion);
   if (!hints.tell_layout() && has_narrow_bands(best)) {
     const AxisHint wide{.model = LineModel::even_ends, .least_m = kMostSpacing_m};
-    Layout whole = best_of(layouts_on(view, {wide, wide}), view, hints, wide.model, criterion);
+    Layout whole = best_of(layouts_on(view, {wide, wide}), view, hints, criterion);
     const double least = are_parts_of(best, whole) ? 1 : kMuchClearer;
     if (whole.evidence > least * best.evidence) best = std::move(whole);
   }

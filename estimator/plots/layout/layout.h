@@ -19,8 +19,8 @@ struct Row {
 // Rows of equal plots, and how clearly the canopy shows them.
 struct Layout {
   RowView view;
-  BandShape r_shape = {}, c_shape = {};   // of a plot along r and along c
-  Segmentation r_seen = {}, c_seen = {};  // the bands that show: drill rows, or the plots
+  BandShape r_shape = {}, c_shape = {};  // of a plot along r and along c
+  int narrower_band = 0;   // of the bands that show along r and c: drill rows, or the plots
   double row_spacing = 0;  // in cells, of drill rows put together along c; 0 for none
   std::vector<Row> rows = {};
   // In cells, the side of plots that touch along r, along c.

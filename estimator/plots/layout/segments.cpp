@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 namespace plotscan::plots {
 namespace {
@@ -71,12 +70,6 @@ class Levels {
   std::vector<Level> levels_;
 };
 
-double highest_mean(const ProfileSums& sums, int width) {
-  double most = 0;
-  for (int i = 0; i + width <= sums.cells(); ++i) most = std::max(most, sums.mean(i, i + width));
-  return most;
-}
-
 // A band that rises at its begin and falls at its end, on the profiles together.
 bool stands_out(std::span<const ProfileSums> profiles, const BandShape& shape, const Start& start) {
   const int end = start.begin + shape.size;
@@ -93,7 +86,7 @@ std::vector<Start> starts_on(std::span<const ProfileSums> profiles, const BandSh
   const int cells = profiles.front().cells();
   double least = 0;
   for (const ProfileSums& sums : profiles)
-    least += kLeastLevel * highest_mean(sums, std::min(shape.size, cells));
+    least += kLeastLevel * sums.highest_mean(std::min(shape.size, cells));
   std::vector<Start> starts;
   for (int begin = shape.blur + 1; begin + shape.size + shape.blur < cells; ++begin) {
     const Start start = levels.start_at(begin, shape);
@@ -191,24 +184,6 @@ Segmentation best_bands(std::span<const ProfileSums> profiles, const BandShape& 
   found.parameters = static_cast<double>(found.begins.size()) * parameters_of_band(profiles.size());
   found.misfit = best - price * found.parameters;
   return found;
-}
-
-Segmentation bands_at(std::span<const ProfileSums> profiles, const BandShape& shape,
-                      std::vector<int> begins) {
-  Segmentation bands{.shape = shape, .begins = std::move(begins), .misfit = 0, .parameters = 0};
-  Levels levels(profiles, bands.begins.size());
-  std::vector<Start> starts;
-  for (const int begin : bands.begins) {
-    starts.push_back(levels.start_at(begin, shape));
-    bands.misfit += starts.back().misfit;
-  }
-  for (std::size_t i = 0; i <= starts.size(); ++i) {
-    bands.misfit += gap_between(profiles, shape, i > 0 ? &starts[i - 1] : nullptr,
-                                i < starts.size() ? &starts[i] : nullptr)
-                        .misfit;
-  }
-  bands.parameters = static_cast<double>(starts.size()) * parameters_of_band(profiles.size());
-  return bands;
 }
 
 }  // namespace plotscan::plots

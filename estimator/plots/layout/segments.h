@@ -34,8 +34,4 @@ struct Segmentation {
 Segmentation best_bands(std::span<const ProfileSums> profiles, const BandShape& shape,
                         int least_gap, double price);
 
-// The same bands at given begins, not searched.
-Segmentation bands_at(std::span<const ProfileSums> profiles, const BandShape& shape,
-                      std::vector<int> begins);
-
 }  // namespace plotscan::plots

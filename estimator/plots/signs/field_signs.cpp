@@ -12,11 +12,8 @@
 #include <fmt/core.h>
 
 #include "core/statistics.h"
-#include "plots/lattice/box_errors.h"
 #include "plots/lattice/row_ends.h"
-#include "plots/signs/internal/gap_cover.h"
-#include "plots/signs/internal/roughness.h"
-#include "plots/signs/internal/squareness.h"
+#include "plots/signs/internal/plot_shape.h"
 
 namespace plotscan::plots {
 namespace {

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: whether what lies on a lattice is a field of plots.
+// Private to the library: whether what lies on a lattice is a field of plots, and the rows that
+// the plots are sown in.
 
+#include <optional>
 #include <string>
 
 #include "plots/lattice/lattice.h"
@@ -27,6 +29,10 @@ std::string no_touching_plots_because(FieldSigns signs, double in_gaps);
 // Whether these may be plots of a trial beside others, whose canopy they do not hold and which may
 // stand in their gaps: whether nothing else speaks against them.
 bool may_be_beside_others(FieldSigns signs);
+
+// The rows that follow each other along r in every plot, where the mean canopy of all plots shows
+// them; none where an even canopy explains it nearly as well.
+std::optional<SownRows> sown_rows_along(const Lattice& lattice);
 
 // 0 to 1: how clearly the field is one of plots.
 double field_confidence(const FieldSigns& signs);

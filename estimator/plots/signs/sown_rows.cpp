@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/signs/sown_rows.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -13,6 +11,7 @@
 
 #include "plots/lattice/depth_profile.h"
 #include "plots/layout/drill_rows.h"
+#include "plots/signs/field_signs.h"
 
 namespace plotscan::plots {
 namespace {

@@ -70,6 +70,7 @@ class LinesOfPlots {
     usual_ = quantile(std::move(counts), 0.5);
   }
 
+  double usual() const { return usual_; }  // number of plots of a line
   // Whether a plot is the first or the last of its line.
   bool ends_with(const Place& place) const {
     const PlotsOnLine& of = lines_.at(place.*line_);
@@ -88,16 +89,6 @@ class LinesOfPlots {
   std::map<int, PlotsOnLine> lines_;
   double usual_ = 0;
 };
-
-double usual_plots_of_row(const Lattice& lattice) {
-  std::map<int, double> of_row;
-  for (const Place& place : lattice.places)
-    if (place.full) ++of_row[place.row];
-  std::vector<double> counts;
-  counts.reserve(of_row.size());
-  for (const auto& [row, count] : of_row) counts.push_back(count);
-  return quantile(std::move(counts), 0.5);
-}
 
 // Whether a place beyond the border is covered as plots are, and has their edges on all sides: a
 // hedge has them on two, another crop on one.
@@ -120,12 +111,19 @@ void fill_between(std::vector<Place>& row) {
         place.full || (place.share >= kLeastBorderCover && clear.stand_beside_in_row(place));
 }
 
+// The number of the first or the last row that has a plot.
+int outer_row(const std::vector<Place>& places, bool last) {
+  const auto outwards = [&](const Place& place) {
+    return std::pair(place.full, last ? place.row : -place.row);
+  };
+  return std::ranges::max(places, {}, outwards).row;
+}
+
 // The plots of the row before the first one or after the last one.
 std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, double usual_plots,
                               bool after) {
   const int step = after ? 1 : -1;
-  const auto outwards = [&](const Place& place) { return std::pair(place.full, step * place.row); };
-  const int outer = std::ranges::max(lattice.places, {}, outwards).row;
+  const int outer = outer_row(lattice.places, after);
   std::vector<Place> row;
   for (const Place& place : lattice.places) {
     if (place.row != outer) continue;
@@ -144,7 +142,7 @@ std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, do
 void add_rows_beyond(Lattice& lattice) {
   if (lattice.r.pitch_m < lattice.r.size_m) return;  // one row, or rows that overlap
   const UsualPlot usual = usual_plot(lattice);
-  const double usual_plots = usual_plots_of_row(lattice);
+  const double usual_plots = LinesOfPlots(lattice.places, &Place::row, &Place::column).usual();
   for (const bool after : {false, true}) {
     for (std::vector<Place> row = row_beyond(lattice, usual, usual_plots, after); !row.empty();
          row = row_beyond(lattice, usual, usual_plots, after))
@@ -152,12 +150,9 @@ void add_rows_beyond(Lattice& lattice) {
   }
 }
 
-// The full places of the first or the last row that has some.
-std::vector<Place*> outer_row(std::vector<Place>& places, bool last) {
-  const auto outwards = [&](const Place& place) {
-    return std::pair(place.full, last ? place.row : -place.row);
-  };
-  const int outer = std::ranges::max(places, {}, outwards).row;
+// The plots of the first or the last row that has some.
+std::vector<Place*> plots_of_outer_row(std::vector<Place>& places, bool last) {
+  const int outer = outer_row(places, last);
   std::vector<Place*> row;
   for (Place& place : places)
     if (place.full && place.row == outer) row.push_back(&place);
@@ -182,9 +177,9 @@ void leave_out_rows_of_crop(Lattice& lattice) {
   if (usual.least() < kLeastUsual) return;
   for (const bool last : {false, true}) {
     const auto all = std::ranges::count_if(lattice.places, &Place::full);
-    for (std::vector<Place*> row = outer_row(lattice.places, last);
+    for (std::vector<Place*> row = plots_of_outer_row(lattice.places, last);
          std::ssize(row) < all && is_of_crop(lattice, usual, row, last);
-         row = outer_row(lattice.places, last))
+         row = plots_of_outer_row(lattice.places, last))
       for (Place* place : row) place->full = false;
   }
 }

@@ -29,13 +29,6 @@ struct Stretch {
   double length() const { return end - begin + bare; }
 };
 
-double fullest(const ProfileSums& profile, int size) {
-  double most = 0;
-  for (int i = 0; i + size <= profile.cells(); ++i)
-    most = std::max(most, profile.mean(i, i + size));
-  return most;
-}
-
 // Stretches of canopy, in which rows leave no more than `most_between` cells bare; none where all
 // of the profile is one, which then shows neither where it begins nor where it ends.
 std::vector<Stretch> stretches_of(const ProfileSums& profile, double least, int most_between) {
@@ -122,7 +115,7 @@ std::optional<TouchingPlots> touching_plots(std::span<const ProfileSums> profile
   for (const ProfileSums& profile : profiles) {
     const int plot = cells(side_m.value_or(1));
     std::vector<Stretch> stretches =
-        stretches_of(profile, kLeastStanding * fullest(profile, plot), cells(row_m));
+        stretches_of(profile, kLeastStanding * profile.highest_mean(plot), cells(row_m));
     for (Stretch& stretch : stretches) stretch = without_overhang(profile, stretch, plot);
     if (!side_m) plots.side = side_of_count(stretches, *count);
     if (plots.side * cell_m < kNarrowest_m) return std::nullopt;

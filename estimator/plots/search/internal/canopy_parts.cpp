@@ -6,6 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "plots/canopy/field_blocks.h"
+
 namespace plotscan::plots {
 namespace {
 
@@ -48,9 +50,8 @@ std::vector<PartCell> fill(PartGrid& cells, const PartCell& start, int covered, 
 
 }  // namespace
 
-CanopyParts::CanopyParts(std::span<const Eigen::Vector3f> points, double low_m, double gap_m) {
-  for (const Eigen::Vector3f& point : points)
-    if (point.allFinite()) extent_.extend(point.head<2>());
+CanopyParts::CanopyParts(std::span<const Eigen::Vector3f> points, double low_m, double gap_m)
+    : extent_(extent_of_finite(points)) {
   if (extent_.isEmpty()) return;
   cell_m_ = std::max(kPartCell_m, std::sqrt(extent_.volume() / kMostPartCells));
   const PartCell count = (extent_.sizes() / cell_m_).array().floor().cast<Eigen::Index>() + 1;

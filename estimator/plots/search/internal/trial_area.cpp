@@ -7,6 +7,8 @@
 
 #include <Eigen/Geometry>
 
+#include "plots/canopy/field_blocks.h"
+
 namespace plotscan::plots {
 namespace {
 
@@ -82,12 +84,10 @@ PlotBox outline_of(const TrialLayout& layout) {
 
 std::vector<Eigen::Vector3f> points_outside(std::span<const Eigen::Vector3f> points,
                                             std::span<const PlotBox> boxes) {
-  Eigen::AlignedBox2d extent;
-  for (const Eigen::Vector3f& point : points)
-    if (point.allFinite()) extent.extend(point.head<2>().cast<double>());
+  const Eigen::AlignedBox2f extent = extent_of_finite(points);
   std::vector<Eigen::Vector3f> outside;
   if (extent.isEmpty()) return outside;
-  MarkedCells cells(extent);
+  MarkedCells cells(extent.cast<double>());
   for (const PlotBox& box : boxes) cells.mark(box);
   std::ranges::copy_if(points, std::back_inserter(outside), [&](const Eigen::Vector3f& point) {
     return point.allFinite() && !cells.is_marked(point.head<2>().cast<double>());

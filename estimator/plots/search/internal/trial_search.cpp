@@ -10,16 +10,12 @@
 #include <tbb/task_arena.h>
 
 #include "plots/canopy/canopy_raster.h"
-#include "plots/lattice/box_errors.h"
 #include "plots/lattice/lattice.h"
-#include "plots/lattice/outline.h"
-#include "plots/lattice/plot_edges.h"
 #include "plots/layout/layout.h"
 #include "plots/search/internal/heading.h"
 #include "plots/search/internal/told_layout.h"
 #include "plots/search/internal/trial_area.h"
 #include "plots/signs/field_signs.h"
-#include "plots/signs/sown_rows.h"
 
 namespace plotscan::plots {
 namespace {

@@ -34,9 +34,7 @@ constexpr double kEnoughPerM2 = 400;  // points, to tell trials apart
 
 // About `per_m2` points a square metre. Which ones depends on each point alone, not on their order.
 std::vector<Eigen::Vector3f> thinned(std::span<const Eigen::Vector3f> points, double per_m2) {
-  Eigen::AlignedBox2f extent;
-  for (const Eigen::Vector3f& point : points)
-    if (point.allFinite()) extent.extend(point.head<2>());
+  const Eigen::AlignedBox2f extent = extent_of_finite(points);
   std::vector<Eigen::Vector3f> kept;
   if (extent.isEmpty()) return kept;
   const double share = per_m2 * extent.volume() / static_cast<double>(points.size());
@@ -58,29 +56,23 @@ std::vector<Eigen::Vector3f> rest_of(const ScannedField& field, const Trials& tr
   return points_outside(field.points, areas);
 }
 
-FieldBlocks blocks_of(const ScannedField& field, std::span<const Eigen::Vector3f> points) {
-  return {points, field.noise_m, field.threads};
-}
-
-// The same field with other points, of these blocks.
-ScannedField with_points(const ScannedField& field, std::span<const Eigen::Vector3f> points,
-                         const FieldBlocks& blocks) {
-  return {points, blocks, field.noise_m, field.hints, field.threads, field.ground_error};
+// What is seen of the same field in some of its points.
+template <typename See>
+auto seen_in(const ScannedField& field, std::span<const Eigen::Vector3f> points, const See& see) {
+  const FieldBlocks blocks(points, field.noise_m, field.threads);
+  return see(
+      ScannedField{points, blocks, field.noise_m, field.hints, field.threads, field.ground_error});
 }
 
 // What shows beside the trials, whatever else stands there.
 Look look_beside(const ScannedField& field, const Trials& trials) {
-  const std::vector<Eigen::Vector3f> rest = rest_of(field, trials);
-  const FieldBlocks blocks = blocks_of(field, rest);
-  return look_once(with_points(field, rest, blocks));
+  return seen_in(field, rest_of(field, trials), look_once);
 }
 
 // What shows where some of the trials stand, with all others taken away.
 Look look_at(const ScannedField& field, const Trials& trials,
              const std::vector<const SeenTrial*>& some) {
-  const std::vector<Eigen::Vector3f> rest = rest_of(field, trials, some);
-  const FieldBlocks blocks = blocks_of(field, rest);
-  return look_twice(with_points(field, rest, blocks));
+  return seen_in(field, rest_of(field, trials, some), look_twice);
 }
 
 // Adds one trial after the other, each in what the ones before leave of the canopy. It need not
@@ -259,9 +251,7 @@ bool are_clear(const Trials& trials) {
 Trials trials_of(const ScannedField& field, const CanopyParts& parts) {
   Trials trials;
   for (std::size_t part = 0; part < parts.size(); ++part) {
-    const std::vector<Eigen::Vector3f> own = parts.without_others(field.points, part);
-    const FieldBlocks blocks = blocks_of(field, own);
-    Look look = look_twice(with_points(field, own, blocks));
+    Look look = seen_in(field, parts.without_others(field.points, part), look_twice);
     if (!is_trial(look)) continue;
     std::vector<PlotBox> area = area_of(look.field.fit->layout);
     trials.push_back({.area = std::move(area), .look = std::move(look)});
@@ -317,14 +307,13 @@ double expected_plots(const std::vector<SeenTrial>& trials) {
 }
 
 std::vector<SeenTrial> trials_beside(const ScannedField& field, const Looks& looks) {
-  const std::vector<Eigen::Vector3f> points = thinned(field.points, kEnoughPerM2);
-  const FieldBlocks blocks = blocks_of(field, points);
-  const ScannedField thin = with_points(field, points, blocks);
   const std::vector<Look> starts = starts_of(looks);
   if (starts.empty()) return {};
-  Trials best = best_of_parts(thin);
-  if (!are_clear(best)) keep_better(best_of_starts(thin, starts), best);
-  return looked_at_closely(field, std::move(best));
+  return seen_in(field, thinned(field.points, kEnoughPerM2), [&](const ScannedField& thin) {
+    Trials best = best_of_parts(thin);
+    if (!are_clear(best)) keep_better(best_of_starts(thin, starts), best);
+    return looked_at_closely(field, std::move(best));
+  });
 }
 
 }  // namespace plotscan::plots

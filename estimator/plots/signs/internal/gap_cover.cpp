@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/signs/internal/gap_cover.h"
-
 #include <algorithm>
 #include <cmath>
 #include <map>
 #include <optional>
 #include <utility>
 #include <vector>
+
+#include "plots/signs/internal/plot_shape.h"
 
 namespace plotscan::plots {
 namespace {

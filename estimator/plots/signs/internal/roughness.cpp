@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/signs/internal/roughness.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -13,6 +11,7 @@
 
 #include "core/statistics.h"
 #include "plots/canopy/patch.h"
+#include "plots/signs/internal/plot_shape.h"
 
 namespace plotscan::plots {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/signs/internal/squareness.h"
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
 
 #include <Eigen/Core>
+
+#include "plots/signs/internal/plot_shape.h"
 
 namespace plotscan::plots {
 namespace {

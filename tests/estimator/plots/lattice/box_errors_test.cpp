@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/lattice/box_errors.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "estimator/plots/known_trial.h"
+#include "plots/lattice/lattice.h"
 
 namespace plotscan::plots {
 namespace {

@@ -67,6 +67,18 @@ TEST(GoOnBeyond, FindsTheRowsAndColumnsThatFollow) {
   }
 }
 
+// The middle plot of the row that follows leans over to the next one.
+TEST(GoOnBeyond, TakesALodgedPlotBetweenTwoOthers) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  TrialLayout grown = trial;
+  for (TrialPlace& place : grown.places)
+    if (place.row == 3 && place.column == 3) place.position_m.x() += 0.5;
+  const CanopyRaster raster = canopy_of(grown, 1.5, kGapsClosed);
+  Lattice lattice = lattice_of_first(trial, 2, raster);
+  go_on_beyond(lattice);
+  EXPECT_EQ(plots_of(lattice), 15);
+}
+
 TEST(GoOnBeyond, AddsNothingWhereBareGroundAHedgeOrAnotherCropFollows) {
   const TrialLayout trial = known_trial({0, 0, 0});
   const double third_m = 3 + 2 * trial.row_pitch_m;

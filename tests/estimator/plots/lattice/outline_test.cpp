@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/lattice/outline.h"
-
 #include <gtest/gtest.h>
 
 #include "estimator/plots/known_trial.h"
+#include "plots/lattice/lattice.h"
 
 namespace plotscan::plots {
 namespace {

@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/lattice/plot_edges.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,6 +8,7 @@
 #include <gtest/gtest.h>
 
 #include "estimator/plots/known_trial.h"
+#include "plots/lattice/lattice.h"
 
 namespace plotscan::plots {
 namespace {

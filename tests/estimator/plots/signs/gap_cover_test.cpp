@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/signs/internal/gap_cover.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -8,6 +6,7 @@
 #include <gtest/gtest.h>
 
 #include "estimator/plots/known_trial.h"
+#include "plots/signs/internal/plot_shape.h"
 
 namespace plotscan::plots {
 namespace {

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/signs/internal/roughness.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "core/random.h"
 #include "estimator/plots/known_trial.h"
+#include "plots/signs/internal/plot_shape.h"
 
 namespace plotscan::plots {
 namespace {

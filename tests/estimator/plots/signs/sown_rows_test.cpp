@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/signs/sown_rows.h"
-
 #include <gtest/gtest.h>
 
 #include "estimator/plots/known_trial.h"
+#include "plots/signs/field_signs.h"
 
 namespace plotscan::plots {
 namespace {

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "plots/signs/internal/squareness.h"
-
 #include <cmath>
 
 #include <gtest/gtest.h>
 
 #include "estimator/plots/known_trial.h"
+#include "plots/signs/internal/plot_shape.h"
 
 namespace plotscan::plots {
 namespace {
