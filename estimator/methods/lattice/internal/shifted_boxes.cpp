@@ -22,9 +22,8 @@ constexpr double kParallel_rad = 0.035;  // 2 degrees
 // point the same way.
 struct Surroundings {
   int along = 0, across = 0;  // cells of the box
-  // Sums over all cells before one, of `columns` cells each: with returns, and under canopy.
-  int columns = 0;
-  std::vector<int> seen, covered;
+  // Sums over all cells before one: with returns, and under canopy.
+  Eigen::ArrayXXi seen = {}, covered = {};
 };
 
 struct Cover {
@@ -64,16 +63,12 @@ double least_canopy_m(const std::vector<std::vector<Eigen::Vector3f>>& around) {
 }
 
 // Sums over the cells of lower rows and columns; one row and one column more than cells.
-std::vector<int> summed(const std::vector<bool>& cells, int columns) {
-  const int rows = static_cast<int>(cells.size()) / columns;
-  std::vector<int> sums(static_cast<std::size_t>((rows + 1) * (columns + 1)), 0);
-  const auto at = [&](int row, int column) -> int& {
-    return sums[static_cast<std::size_t>(row * (columns + 1) + column)];
-  };
-  for (int row = 0; row < rows; ++row)
-    for (int column = 0; column < columns; ++column)
-      at(row + 1, column + 1) = at(row, column + 1) + at(row + 1, column) - at(row, column) +
-                                cells[static_cast<std::size_t>(row * columns + column)];
+Eigen::ArrayXXi summed(const Eigen::ArrayXXi& cells) {
+  Eigen::ArrayXXi sums = Eigen::ArrayXXi::Zero(cells.rows() + 1, cells.cols() + 1);
+  for (Eigen::Index row = 0; row < cells.rows(); ++row)
+    for (Eigen::Index column = 0; column < cells.cols(); ++column)
+      sums(row + 1, column + 1) =
+          sums(row, column + 1) + sums(row + 1, column) - sums(row, column) + cells(row, column);
   return sums;
 }
 
@@ -84,29 +79,27 @@ Surroundings surroundings_of(const PlotBox& box, const std::vector<Eigen::Vector
   };
   Surroundings about{.along = cells(box.length_m), .across = cells(box.width_m)};
   const int rows = about.along + 2 * kSteps;
-  about.columns = about.across + 2 * kSteps;
-  std::vector<bool> seen(static_cast<std::size_t>(rows * about.columns), false);
-  std::vector<bool> covered = seen;
+  const int columns = about.across + 2 * kSteps;
+  Eigen::ArrayXXi seen = Eigen::ArrayXXi::Zero(rows, columns);
+  Eigen::ArrayXXi covered = seen;
   for (const Eigen::Vector3f& point : points) {
     const Eigen::Vector2d place = box.box_from_world(point.head<2>().cast<double>());
     const int row = static_cast<int>(std::floor(place.x() / kCell_m + rows / 2.0));
-    const int column = static_cast<int>(std::floor(place.y() / kCell_m + about.columns / 2.0));
-    if (row < 0 || row >= rows || column < 0 || column >= about.columns) continue;
-    const auto cell = static_cast<std::size_t>(row * about.columns + column);
-    seen[cell] = true;
-    if (point.z() > least_m) covered[cell] = true;
+    const int column = static_cast<int>(std::floor(place.y() / kCell_m + columns / 2.0));
+    if (row < 0 || row >= rows || column < 0 || column >= columns) continue;
+    seen(row, column) = 1;
+    if (point.z() > least_m) covered(row, column) = 1;
   }
-  about.seen = summed(seen, about.columns);
-  about.covered = summed(covered, about.columns);
+  about.seen = summed(seen);
+  about.covered = summed(covered);
   return about;
 }
 
-int within(const Surroundings& about, const std::vector<int>& sums, int row, int column) {
-  const auto at = [&](int r, int c) {
-    return sums[static_cast<std::size_t>(r * (about.columns + 1) + c)];
-  };
-  return at(row + about.along, column + about.across) - at(row, column + about.across) -
-         at(row + about.along, column) + at(row, column);
+int within(const Surroundings& about, const Eigen::ArrayXXi& sums, int row, int column) {
+  const int end_row = row + about.along;
+  const int end_column = column + about.across;
+  return sums(end_row, end_column) - sums(row, end_column) - sums(end_row, column) +
+         sums(row, column);
 }
 
 // Of all boxes, moved by so many cells along and across.
