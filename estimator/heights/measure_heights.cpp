@@ -21,10 +21,10 @@ namespace {
 
 constexpr double kScannedCell_m = 0.5;
 
-// What a plot's returns show: in its own part, and in the whole box.
+// What a plot's returns show.
 struct SeenPlot {
-  PlotCanopy own;
-  PlotCanopy whole;
+  PlotCanopy own;    // in the part that holds its own plants
+  PlotCanopy whole;  // in the box: only its quantiles count
   PlotEvidence evidence;
 };
 
@@ -84,7 +84,7 @@ SeenPlot see_plot(const PlotPoints& plot, const OwnPart& own, const ground::Surf
     seen.own = see(own.box, inside, surface).canopy;
   }
   seen.evidence.top_m = seen.own.top_m;
-  seen.own.bare = seen.whole.bare = is_bare(seen.evidence);
+  seen.own.bare = is_bare(seen.evidence);
   return seen;
 }
 
