@@ -90,11 +90,23 @@ function(plotscan_time_limit variable seconds)
   set(${variable} ${seconds} PARENT_SCOPE)
 endfunction()
 
-# plotscan_test(NAME SOURCES ... LIBRARIES ...): the same, its cases found by CTest.
+# plotscan_test(NAME SOURCES ... LIBRARIES ... TOGETHER ...): the same, its cases found by CTest, each a test and a process of its
+# own; a suite of TOGETHER, whose cases share what takes long to make, is one.
 function(plotscan_test name)
-  plotscan_test_program(${name} ${ARGN})
+  cmake_parse_arguments(ARG "" "" "SOURCES;LIBRARIES;TOGETHER" ${ARGN})
+  plotscan_test_program(${name} SOURCES ${ARG_SOURCES} LIBRARIES ${ARG_LIBRARIES})
   plotscan_time_limit(seconds 300)
-  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT ${seconds})
+  set(alone)
+  if(ARG_TOGETHER)
+    list(TRANSFORM ARG_TOGETHER APPEND ".*" OUTPUT_VARIABLE alone)
+    list(JOIN alone ":" alone)
+    set(alone TEST_FILTER "-${alone}")
+  endif()
+  gtest_discover_tests(${name} DISCOVERY_TIMEOUT 60 ${alone} PROPERTIES TIMEOUT ${seconds})
+  foreach(suite IN LISTS ARG_TOGETHER)
+    add_test(NAME ${suite} COMMAND ${name} --gtest_filter=${suite}.*)
+    set_tests_properties(${suite} PROPERTIES TIMEOUT ${seconds} COST 20)  # begun early
+  endforeach()
 endfunction()
 include(GoogleTest)
 # plotscan_embed_texts(SOURCE NAMESPACE FUNCTION HEADER name=file...): makes SOURCE, whose function

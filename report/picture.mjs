@@ -1,6 +1,6 @@
 // A picture of a report page, for the docs: node report/picture.mjs PAGE PNG WIDTH HEIGHT [SELECTOR [PLOT]]; with a
 // selector that part of the page alone; with a plot's id that plot is chosen first.
-import { open } from "./tests/browser/browser.mjs";
+import { open, quit } from "./tests/browser/browser.mjs";
 
 const [file, png, width, height, selector, plot] = process.argv.slice(2);
 await open(file, { size: { width: Number(width), height: Number(height) } }, async (page) => {
@@ -13,3 +13,4 @@ await open(file, { size: { width: Number(width), height: Number(height) } }, asy
   await page.waitForTimeout(2000);
   await (selector ? page.locator(selector).first() : page).screenshot({ path: png });
 });
+await quit();

@@ -1,6 +1,6 @@
 // How fast a report page is: node report/speed.mjs PAGE. When it can be used, when all of its points are there, and how
 // long a picture takes while the field turns (milliseconds).
-import { open } from "./tests/browser/browser.mjs";
+import { open, quit } from "./tests/browser/browser.mjs";
 
 await open(process.argv[2], {}, async (page) => {
   const numbers = await page.evaluate(async () => {
@@ -18,3 +18,4 @@ await open(process.argv[2], {}, async (page) => {
   });
   console.log(JSON.stringify(numbers, (_, value) => (typeof value === "number" ? Math.round(value) : value)));
 });
+await quit();

@@ -1,7 +1,5 @@
-// Debian's Chromium, headless, with a fresh profile; what it complains of and asks for is kept.
-import { mkdtempSync, rmSync } from "node:fs";
-import { tmpdir } from "node:os";
-import { join } from "node:path";
+// Debian's Chromium, headless, one for all pages of a program, each page in a profile of its own; what a page complains of
+// and asks for is kept.
 import { pathToFileURL } from "node:url";
 import { chromium } from "playwright-core";
 
@@ -12,12 +10,19 @@ const flags = [
 export const desktop = { width: 1400, height: 900 };
 export const phone = { width: 390, height: 844 };
 
-// Opens a page, hands it to `use`, and closes the browser whatever happens.
+let browser;
+const running = () => (browser ??= chromium.launch({
+  executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags }));
+
+// Ends the browser, without which a program does not end.
+export async function quit() {
+  await (await browser)?.close();
+  browser = undefined;
+}
+
+// Opens a page, hands it to `use`, and closes it whatever happens.
 export async function open(file, { size = desktop, colours = "light" }, use) {
-  const profile = mkdtempSync(join(tmpdir(), "plotscan-browser-"));
-  const context = await chromium.launchPersistentContext(profile, {
-    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium", headless: true, args: flags, viewport: size, colorScheme: colours,
-    acceptDownloads: true });
+  const context = await (await running()).newContext({ viewport: size, colorScheme: colours, acceptDownloads: true });
   try {
     const page = await context.newPage();
     const complaints = [];
@@ -35,7 +40,6 @@ export async function open(file, { size = desktop, colours = "light" }, use) {
     await use(page, { complaints, requests });
   } finally {
     await context.close();
-    rmSync(profile, { recursive: true, force: true });
   }
 }
 

@@ -3,8 +3,8 @@
 import assert from "node:assert/strict";
 import { mkdirSync, readFileSync } from "node:fs";
 import { join } from "node:path";
-import { before, test } from "node:test";
-import { open, phone, picture } from "./browser.mjs";
+import { after, before, test } from "node:test";
+import { open, phone, picture, quit } from "./browser.mjs";
 import { hostile, makePages } from "./pages.mjs";
 
 const { PROGRAMS: programs, WORK: work } = process.env;
@@ -15,6 +15,7 @@ before(() => {
   makePages(programs, work);
   mkdirSync(shots, { recursive: true });
 });
+after(quit);
 
 function sound({ complaints, requests }) {
   assert.deepEqual(complaints, []);

@@ -37,7 +37,7 @@ TEST_F(Convert, PcdComesBackByteForByte) {
   EXPECT_EQ(file_hash(out), file_hash(scan_ / "cloud.pcd"));
 }
 
-// Every cloud format to every other and back to PCD: the same points, but for LAS' steps.
+// From a scan to every cloud format, and from each on to the next: the same points, but for LAS' steps.
 TEST_F(Convert, EveryCloudFormatHoldsEveryField) {
   struct Kind {
     const char* extension;
@@ -46,14 +46,15 @@ TEST_F(Convert, EveryCloudFormatHoldsEveryField) {
   const std::vector<Kind> kinds = {{".pcd", "binary"}, {".pcd", "compressed"}, {".pcd", "ascii"},
                                    {".ply", "binary"}, {".ply", "ascii"},      {".las", ""}};
   const auto original = points_of(scan_ / "cloud.pcd");
-  for (const Kind& first : kinds) {
+  for (std::size_t i = 0; i < kinds.size(); ++i) {
+    const Kind& first = kinds[i];
+    const Kind& second = kinds[(i + 1) % kinds.size()];
     const fs::path one = folder_.path() / (std::string("one") + first.extension);
     convert(scan_, one, {.write = {.encoding = first.encoding}, .replace = true});
-    for (const Kind& second : kinds) {
-      const fs::path two = folder_.path() / (std::string("two") + second.extension);
-      convert(one, two, {.write = {.encoding = second.encoding}, .replace = true});
-      expect_same(points_of(two), original);
-    }
+    expect_same(points_of(one), original);
+    const fs::path two = folder_.path() / (std::string("two") + second.extension);
+    convert(one, two, {.write = {.encoding = second.encoding}, .replace = true});
+    expect_same(points_of(two), original);
   }
 }
 
