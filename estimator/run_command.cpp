@@ -99,10 +99,9 @@ void declare_parts(CLI::App& run, RunArguments& arguments) {
       ->check(CLI::Range(0, 255));
   run.add_option(
       "--boxes", arguments.options.boxes,
-      "map of the plots (GeoJSON, GeoPackage, shapefile), in the cloud's units, or in "
-      "longitude and latitude "
-      "where the cloud is in UTM or degrees: heights are measured in its boxes, its ids and "
-      "attributes kept, and no plots searched for");
+      "map of the plots (GeoJSON, GeoPackage, shapefile, an earlier estimate's folder), in the "
+      "cloud's units, or in longitude and latitude where the cloud is in UTM or degrees: heights "
+      "are measured in its boxes, its ids and attributes kept, and no plots searched for");
 }
 
 // What the plots are called.

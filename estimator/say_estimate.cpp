@@ -9,6 +9,7 @@
 #include <fmt/core.h>
 
 #include "cloud/field_density.h"
+#include "core/contains.h"
 #include "core/geodesy.h"
 #include "core/text.h"
 #include "heights/flags.h"
@@ -126,7 +127,7 @@ void say_flags(const Program& program, const estimate::Estimate& estimate) {
 std::string unsure_text(const estimate::Estimate& estimate, const std::string& name) {
   const std::string flag = heights::unsure_flag(name);
   const auto unsure = std::ranges::count_if(
-      estimate.plots, [&](const auto& plot) { return std::ranges::count(plot.flags, flag) > 0; });
+      estimate.plots, [&](const auto& plot) { return contains(plot.flags, flag); });
   return unsure == 0 ? "" : fmt::format(", {} of them unsure by centimetres", unsure);
 }
 

@@ -9,6 +9,7 @@
 
 #include <unistd.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/printable.h"
 #include "core/temporary_path.h"
@@ -142,8 +143,7 @@ CommandMethod command_method(const std::string& name, const std::string& command
 CommandMethod command_method(const std::string& entered, const fs::path& suite) {
   const std::size_t equals = entered.find('=');
   const std::string name = entered.substr(0, equals);
-  const bool is_ours = std::ranges::any_of(
-      known_methods(), [&](const Method& method) { return method.name == name; });
+  const bool is_ours = contains(known_methods(), name, &Method::name);
   if (equals == std::string::npos || !is_table_name(name) || is_ours)
     throw InputError("\"" + entered +
                      "\" must be NAME=COMMAND, the name 1 to 40 letters, digits, "

@@ -6,6 +6,7 @@
 #include <set>
 #include <utility>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/output_file.h"
@@ -93,7 +94,7 @@ std::map<fs::path, Entry> read_entries(const fs::path& output) {
 
 void require_new_name(const Entry& entry, const fs::path& file,
                       const std::vector<std::string>& methods) {
-  if (std::ranges::count(methods, entry.method) > 0)
+  if (contains(methods, entry.method))
     throw InputError(
         file, "\"{}\" is the name of another method as well; rename that one, or remove this file",
         entry.method);

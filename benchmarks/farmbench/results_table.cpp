@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/results_table.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <optional>
 #include <set>
 
 #include "core/angle.h"
+#include "core/contains.h"
 #include "core/csv.h"
 #include "farmbench/figure_text.h"
 #include "farmbench/internal/bootstrap.h"
@@ -192,7 +192,7 @@ std::vector<TableRow> make_table(const SuiteResult& result, std::uint64_t seed) 
 std::vector<std::string> methods_of(const std::vector<TableRow>& rows) {
   std::vector<std::string> methods;
   for (const TableRow& row : rows) {
-    if (std::ranges::find(methods, row.method) == methods.end()) methods.push_back(row.method);
+    if (!contains(methods, row.method)) methods.push_back(row.method);
   }
   return methods;
 }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/yaml_section.h"
@@ -129,7 +130,7 @@ std::string read_own_method(const YamlSection& root, const YamlSection& entry) {
 
 CommandMethod read_command(const YamlSection& entry) {
   const std::string name = read_name(entry);
-  if (std::ranges::find(known_methods(), name, &Method::name) != known_methods().end())
+  if (contains(known_methods(), name, &Method::name))
     entry.fail("name", "\"" + name + "\" is one of Plotscan's methods");
   return read_command_method(entry, name);
 }
@@ -161,11 +162,11 @@ std::vector<std::string> read_truths(const YamlSection& root) {
 // Whether the table can have rows of this name. Heights of a program are known when it has run.
 bool has_row(const Suite& suite, const std::string& row) {
   for (const std::string& name : suite.methods) {
-    if (std::ranges::find(suite.commands, name, &CommandMethod::name) != suite.commands.end()) {
+    if (contains(suite.commands, name, &CommandMethod::name)) {
       if (row.starts_with(name.substr(0, name.find(' ')) + "/")) return true;
     } else {
       const std::vector<MethodHeight> heights = method_named(name).heights;
-      if (std::ranges::find(heights, row, &MethodHeight::row) != heights.end()) return true;
+      if (contains(heights, row, &MethodHeight::row)) return true;
     }
   }
   return false;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/suite_result.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/format_version.h"
 
@@ -38,7 +38,7 @@ SuiteResult result_of(const Suite& suite, std::vector<FarmResult> farms) {
                      .sweep = suite.sweep,
                      .farms = std::move(farms)};
   for (const CommandMethod& command : suite.commands) {
-    if (std::ranges::count(suite.methods, command.name) > 0) result.entered.push_back(command.name);
+    if (contains(suite.methods, command.name)) result.entered.push_back(command.name);
   }
   for (const SuiteCase& suite_case : suite.cases)
     result.cases.push_back({suite_case.name, suite_case.published_rmse_cm});

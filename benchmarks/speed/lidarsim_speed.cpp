@@ -13,6 +13,7 @@
 #include <unistd.h>
 
 #include "comparison.h"
+#include "core/angle.h"
 #include "core/temporary_path.h"
 #include "farm/farm.h"
 #include "farmfolder/read_farm.h"
@@ -47,8 +48,7 @@ struct Work {
       : sensor(sensor::load_sensor("vlp16")),
         scene(lidar::scene_content(farm)),
         plan(sensor, kSpin_hz,
-             Eigen::Isometry3d(Eigen::AngleAxisd(EIGEN_PI / 2, Eigen::Vector3d::UnitY())),
-             trajectory) {
+             Eigen::Isometry3d(Eigen::AngleAxisd(kPi / 2, Eigen::Vector3d::UnitY())), trajectory) {
     sensor::SequenceShots shots;
     for (std::uint64_t sequence = 0; sequence < plan.sequences(); ++sequence) {
       plan.fire(sequence, shots);

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/program.h"
 #include "core/temporary_path.h"
@@ -53,7 +54,7 @@ std::vector<std::string> all_strata() {
 void require_known(const std::vector<std::string>& chosen) {
   const std::vector<std::string> known = all_strata();
   for (const std::string& name : chosen) {
-    if (std::ranges::find(known, name) == known.end())
+    if (!contains(known, name))
       throw InputError("there is no stratum \"" + name + "\"; there are " + joined(known, ", "));
   }
 }
@@ -68,8 +69,8 @@ strata::Sources sources_of(const Arguments& arguments) {
 std::vector<Task> plan(const Program& program, const Arguments& arguments) {
   std::vector<Task> tasks;
   for (const std::string& name : all_strata()) {
-    if (!arguments.strata.empty() && std::ranges::count(arguments.strata, name) == 0) continue;
-    const bool empty = std::ranges::count(strata::empty_kinds(), name) > 0;
+    if (!arguments.strata.empty() && !contains(arguments.strata, name)) continue;
+    const bool empty = contains(strata::empty_kinds(), name);
     if (name == "others" && !fs::exists(sources_of(arguments).meshes) && !arguments.meshes) {
       program.say("others: left out, as " + sources_of(arguments).meshes.string() + " is absent");
       continue;

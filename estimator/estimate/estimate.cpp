@@ -8,6 +8,7 @@
 #include <set>
 
 #include "core/angle.h"
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/geodesy.h"
 #include "core/list_of.h"
@@ -32,8 +33,8 @@ constexpr std::array<const char*, 4> kPlane = {"ground_z_m", "ground_slope_x", "
 // Whether a property is one of those that an estimate gives its plots.
 bool is_measured(std::string property) {
   if (property == "points" || property == "confidence" || property == "flags") return true;
-  if (std::ranges::count(kPlane, property) > 0) return true;
-  if (std::ranges::count(kBoxErrors, property) > 0) return true;
+  if (contains(kPlane, property)) return true;
+  if (contains(kBoxErrors, property)) return true;
   for (const auto& [before, value] : kErrorProperties) {
     if (property.starts_with(before)) property.erase(0, before.size());
   }
@@ -251,7 +252,7 @@ void write_estimate(const fs::path& folder, const Estimate& estimate) {
 
 Estimate read_estimate(const fs::path& path, const std::string& crs) {
   const bool is_folder = fs::is_directory(path);
-  const fs::path file = is_folder ? path / "plots.geojson" : path;
+  const fs::path file = estimated_map_of(path);
   Estimate estimate;
   if (is_folder) read_made_by(path, estimate);
   const nlohmann::json document = read_map_document(file);

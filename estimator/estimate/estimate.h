@@ -81,8 +81,8 @@ void write_estimate(const std::filesystem::path& folder, const Estimate& estimat
 // else its plot_number, else its place in the file. The method is the one that the folder's
 // manifest.json names, "" without a manifest. The ground's grids are not read. A file
 // in longitude and latitude is brought into `crs`, which is UTM's. Throws InputError as
-// read_plot_features and plots_of do, when no plot has a height, and when a file that no method of
-// ours wrote has no plot.
+// estimated_map_of, read_plot_features and plots_of do, when no plot has a height, and when a file
+// that no method of ours wrote has no plot.
 Estimate read_estimate(const std::filesystem::path& path, const std::string& crs = "");
 
 // The attributes of a feature in the user's map, to be written back (PlotEstimate::attributes): all

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/measured_heights.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <set>
@@ -10,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "core/contains.h"
 #include "core/coordinate_units.h"
 #include "core/csv.h"
 #include "core/error.h"
@@ -47,7 +47,7 @@ std::vector<HeightColumn> height_columns(const fs::path& file, const CsvTable& t
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const std::optional<HeightColumn> column = height_column(i, table.columns[i]);
     if (!column) continue;
-    if (std::ranges::find(found, column->truth, &HeightColumn::truth) != found.end())
+    if (contains(found, column->truth, &HeightColumn::truth))
       throw InputError(file, "has two columns of " + column->truth);
     found.push_back(*column);
   }

@@ -155,8 +155,9 @@ NamedPlaces read_named_places(const fs::path& file, const std::optional<std::str
   return named;
 }
 
-PlotMap read_plot_map(const fs::path& file, const std::string& crs, double unit_m,
+PlotMap read_plot_map(const fs::path& place, const std::string& crs, double unit_m,
                       const std::optional<std::string>& id_property) {
+  const fs::path file = estimated_map_of(place);
   PlacedPlots placed = is_vector_map(file)
                            ? plot_features_of(read_vector_map(file), file, crs, unit_m)
                            : read_plot_features(file, crs, unit_m);

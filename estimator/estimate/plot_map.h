@@ -25,15 +25,16 @@ struct PlotMap {
 
 inline constexpr double kMostPlot_m2 = 10000;  // of a given plot
 
-// Reads a map of plots (GeoJSON, GeoPackage or shapefile) over a cloud in the coordinate system
-// `crs`, `unit_m` metres to one unit of it: in these units, or in longitude and latitude where that
-// is UTM's in metres (read_plot_features). The ids are those of the property `id_property`; without
-// it of the first of plot_number, plot_id, plot_name, observationUnitName, observationunit_name,
-// name and id that the plots have; "id" may be a member of the feature as well. Such a
-// property counts whatever the case, underscores and blanks of its name ("Plot ID"). Throws
-// InputError as read_plot_features does, on a file without plots or with one over kMostPlot_m2,
-// where some plots have an id and others none, and where two have the same: the message names them.
-PlotMap read_plot_map(const std::filesystem::path& file, const std::string& crs, double unit_m,
+// Reads a map of plots (GeoJSON, GeoPackage, shapefile, an estimate's folder) over a cloud in the
+// coordinate system `crs`, `unit_m` metres to one unit of it: in these units, or in longitude and
+// latitude where that is UTM's in metres (read_plot_features). The ids are those of the property
+// `id_property`; without it of the first of plot_number, plot_id, plot_name, observationUnitName,
+// observationunit_name, name and id that the plots have; "id" may be a member of the feature as
+// well. Such a property counts whatever the case, underscores and blanks of its name ("Plot ID").
+// Throws InputError as estimated_map_of and read_plot_features do, on a file without plots or with
+// one over kMostPlot_m2, where some plots have an id and others none, and where two have the same:
+// the message names them.
+PlotMap read_plot_map(const std::filesystem::path& place, const std::string& crs, double unit_m,
                       const std::optional<std::string>& id_property = std::nullopt);
 
 struct NamedPlot {

@@ -9,6 +9,7 @@
 
 #include <tbb/task_arena.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "ground/columns.h"
 #include "ground/internal/bare_noise.h"
@@ -147,7 +148,7 @@ Ground find_ground(Columns low, double noise_m, Steps& steps) {
   const Grid grid = low.grid;
   Layer upright = upright_layer(low, noise_m);
   const std::vector<std::uint8_t> tops = plateaus(grid, upright.z_m, noise_m);
-  if (std::ranges::count(tops, 1) > 0) {
+  if (contains(tops, 1)) {
     low = without(std::move(low), tops);
     upright = upright_layer(low, noise_m);
   }

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cloud/field_density.h"
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/manifest.h"
 #include "core/output_file.h"
@@ -115,8 +116,16 @@ void require_sound(const RunOptions& options) {
         "one of these");
 }
 
-// These files and the others that the user gives.
-std::vector<fs::path> with_tables(std::vector<fs::path> files, const RunOptions& options) {
+// The options with files in place of the folders that hold them.
+RunOptions with_files(RunOptions options) {
+  options.cloud.files = cloud_files_of(options.cloud.files);
+  if (options.boxes) options.boxes = estimated_map_of(*options.boxes);
+  return options;
+}
+
+// The clouds and the tables that the user gives.
+std::vector<fs::path> inputs_of(const RunOptions& options) {
+  std::vector<fs::path> files = options.cloud.files;
   if (options.cloud.recording.trajectory) files.push_back(*options.cloud.recording.trajectory);
   if (options.boxes) files.push_back(*options.boxes);
   if (options.numbering.names) files.push_back(*options.numbering.names);
@@ -219,21 +228,20 @@ const std::vector<std::string>& method_names() {
 }
 
 void require_known(const std::string& method) {
-  if (std::ranges::find(method_names(), method) != method_names().end()) return;
+  if (contains(method_names(), method)) return;
   throw InputError("there is no method \"" + method + "\"; there is " +
                    joined(method_names(), ", "));
 }
 
 estimate::Estimate run(const RunOptions& options, const ProgressReport& progress) {
   require_sound(options);
-  CloudFiles cloud = options.cloud;
-  cloud.files = cloud_files_of(options.cloud.files);
+  const RunOptions of_files = with_files(options);
+  const CloudFiles& cloud = of_files.cloud;
   Manifest manifest{.command = "estimator run",
                     .seed = options.seed,
                     .options = options_json(options),
-                    .inputs = with_tables(cloud.files, options)};
-  OutputFolder folder(options.output, options.replace, "estimator run",
-                      with_tables(options.cloud.files, options));
+                    .inputs = inputs_of(of_files)};
+  OutputFolder folder(options.output, options.replace, "estimator run", inputs_of(options));
   std::optional<OutputFile> table;
   if (options.csv) {
     require_own_place(*options.csv, options.output, manifest.inputs);

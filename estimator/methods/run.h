@@ -20,9 +20,10 @@ namespace plotscan::methods {
 struct RunOptions {
   CloudFiles cloud;  // files and folders, as cloud_files_of takes them
   std::filesystem::path output;
-  std::string method = "lattice";                   // one of method_names()
-  std::optional<std::filesystem::path> boxes = {};  // a map of plots: heights only, in its boxes
-  estimate::NumberingOptions numbering = {};        // of the plots that are found, without boxes
+  std::string method = "lattice";  // one of method_names()
+  // A map of plots (estimate::read_plot_map): heights only, in its boxes.
+  std::optional<std::filesystem::path> boxes = {};
+  estimate::NumberingOptions numbering = {};  // of the plots that are found, without boxes
   // Property of the boxes, or column of the names and of the measured heights, with the ids.
   std::optional<std::string> id = {};
   // A table of heights measured by hand in some plots: the field's are scaled to agree with them.

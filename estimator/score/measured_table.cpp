@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "score/measured_table.h"
 
-#include <algorithm>
 #include <array>
 
+#include "core/contains.h"
 #include "core/text.h"
 #include "estimate/measured_heights.h"
 
@@ -12,8 +12,7 @@ namespace fs = std::filesystem;
 
 bool is_measured_table(const fs::path& truth, const std::optional<std::string>& id_column) {
   constexpr std::array<const char*, 3> kTables = {".csv", ".tsv", ".txt"};
-  const bool is_table = !fs::is_directory(truth) &&
-                        std::ranges::find(kTables, lower_extension(truth)) != kTables.end();
+  const bool is_table = !fs::is_directory(truth) && contains(kTables, lower_extension(truth));
   if (id_column && !is_table)
     throw InputError("--id names a column of a table of measured heights, and the truth is none");
   return is_table;

@@ -5,6 +5,7 @@
 #include "core/json_text.h"
 #include "core/manifest.h"
 #include "core/output_folder.h"
+#include "core/plot_features.h"
 #include "core/text_file.h"
 #include "estimate/estimate.h"
 #include "score/measured_table.h"
@@ -16,20 +17,16 @@ namespace {
 
 using nlohmann::json;
 
-fs::path file_in(const fs::path& path, const fs::path& inside) {
-  return fs::is_directory(path) ? path / inside : path;
-}
-
 void write_scores(const Scores& scores, const RunOptions& options) {
   OutputFolder folder(*options.output, options.replace, "estimator score",
                       {{options.estimate, options.truth}});
   write_text_file(folder.path() / "scores.json", json_lines(to_json(scores)));
   write_plot_table(folder.path() / "plots.csv", scores.field);
-  write_manifest(folder.path(), {.command = "estimator score",
-                                 .options = {{"min_iou", options.score.min_iou}},
-                                 .inputs = {file_in(options.estimate, "plots.geojson"),
-                                            file_in(options.truth, "truth/plots.geojson")},
-                                 .results = {{"boxes", to_json(scores)["boxes"]}}});
+  write_manifest(folder.path(),
+                 {.command = "estimator score",
+                  .options = {{"min_iou", options.score.min_iou}},
+                  .inputs = {estimated_map_of(options.estimate), plot_map_of(options.truth)},
+                  .results = {{"boxes", to_json(scores)["boxes"]}}});
   folder.commit();
 }
 

@@ -115,7 +115,7 @@ std::vector<TruePlot> read_truth(const fs::path& farm, const std::string& crs) {
 }
 
 estimate::Estimate read_estimate_beside(const fs::path& truth, const fs::path& estimate) {
-  const fs::path map = fs::is_directory(estimate) ? estimate / "plots.geojson" : estimate;
+  const fs::path map = estimated_map_of(estimate);
   const bool in_degrees = fs::exists(map) && stated_system(map).in_degrees;
   return estimate::read_estimate(estimate, in_degrees ? utm_beside(truth) : "");
 }

@@ -22,10 +22,6 @@ using nlohmann::json;
 
 const char* name_of(JoinBy by) { return by == JoinBy::ids ? "ids" : "places"; }
 
-fs::path map_in(const fs::path& estimate) {
-  return fs::is_directory(estimate) ? estimate / "plots.geojson" : estimate;
-}
-
 // The manifest of a result; an empty object for a file, and a folder without one.
 json manifest_of(const fs::path& estimate) {
   return fs::exists(estimate / "manifest.json") ? read_manifest(estimate) : json::object();
@@ -55,7 +51,7 @@ DatedEstimate read_result(const fs::path& path, const std::string& date) {
     const json::json_pointer id = given / source / "id";
     if (manifest.contains(id)) result.estimate.id_property = manifest[id].get<std::string>();
   }
-  const std::vector<PlotFeature> features = read_plot_features(map_in(path), "").plots;
+  const std::vector<PlotFeature> features = read_plot_features(estimated_map_of(path));
   for (std::size_t i = 0; i < features.size(); ++i) {
     result.estimate.plots[i].attributes = estimate::own_attributes(features[i]);
     result.estimate.plots[i].attributes.erase(result.estimate.id_property);
@@ -136,7 +132,7 @@ Series run(const RunOptions& options) {
        .options = {{"height", options.height},
                    {"dates", options.dates},
                    {"join", options.join ? json(name_of(*options.join)) : json(nullptr)}},
-       .inputs = list_of(options.estimates, map_in),
+       .inputs = list_of(options.estimates, estimated_map_of),
        .results = to_json(series, options.height)});
   folder.commit();
   return series;

@@ -8,6 +8,7 @@
 
 #include <fmt/core.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/list_of.h"
@@ -73,8 +74,7 @@ void require_same_system(const DatedEstimate& first, const DatedEstimate& other)
 void give_own_id(PlotEstimate& plot, const std::vector<PlotSeries>& known,
                  const std::string& date) {
   const auto id_of = [](const PlotSeries& other) { return other.plot.id; };
-  if (std::ranges::find(known, plot.id, id_of) != known.end())
-    plot.id = PlotId(plot.id.text() + "@" + date);
+  if (contains(known, plot.id, id_of)) plot.id = PlotId(plot.id.text() + "@" + date);
 }
 
 // Plots of the same id that lie apart, where both results are in one system.

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/contains.h"
 #include "core/csv.h"
 #include "core/list_of.h"
 #include "core/text.h"
@@ -62,7 +63,7 @@ class CultivarFile {
   std::string source(const YamlSection& section, const std::string& kept) const {
     std::string named = text(section, "source", kept);
     const std::string key = named.substr(0, named.find(','));
-    if (complete_ && std::find(sources_.begin(), sources_.end(), key) == sources_.end()) {
+    if (complete_ && !contains(sources_, key)) {
       section.fail("source", "\"{}\" is not one of the file's sources, which are {}", key,
                    joined(sources_, ", "));
     }

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "core/contains.h"
 #include "core/random.h"
 #include "core/statistics.h"
 
@@ -18,7 +19,7 @@ std::vector<std::size_t> sample(std::size_t count, std::size_t wanted, RandomStr
   std::vector<std::size_t> chosen;
   for (std::size_t last = count - std::min(count, wanted); last < count; ++last) {
     const std::size_t pick = random.below(last + 1);
-    const bool taken = std::find(chosen.begin(), chosen.end(), pick) != chosen.end();
+    const bool taken = contains(chosen, pick);
     chosen.push_back(taken ? last : pick);
   }
   return chosen;

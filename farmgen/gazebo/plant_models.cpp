@@ -8,6 +8,7 @@
 
 #include <tbb/parallel_for.h>
 
+#include "core/contains.h"
 #include "core/list_of.h"
 #include "farm/surface_colours.h"
 #include "gazebo/internal/obj_file.h"
@@ -175,7 +176,7 @@ class MergedPlants {
   // them.
   std::string images_of(std::size_t material) const {
     const auto model = std::ranges::find_if(plants_.surfaces.models, [&](const auto& surfaces) {
-      return std::ranges::count(surfaces, material, &Surface::material) > 0;
+      return contains(surfaces, material, &Surface::material);
     });
     return plants_.farm.models[static_cast<std::size_t>(model - plants_.surfaces.models.begin())]
                .name +

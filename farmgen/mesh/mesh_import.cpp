@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "core/bytes.h"
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/isolated.h"
 #include "core/text.h"
@@ -40,7 +41,7 @@ Mesh read_checked(const MeshFile& file, std::vector<std::string>& notes) {
   const auto& [path, options] = file;
   require_file(path);
   const std::string extension = lower_extension(path);
-  if (std::find(kFormats.begin(), kFormats.end(), extension) == kFormats.end())
+  if (!contains(kFormats, extension))
     throw InputError(path, "is not a mesh format that is read: OBJ, DAE, glTF, GLB, PLY, STL");
   require_glb_length(path);
   Mesh mesh = read_with_assimp(path, extension, options, &notes);

@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/stage.h"
@@ -62,7 +63,7 @@ std::vector<farm::Plot> laid_out_plots(const LayoutDescription& layout,
 void require_plots_left(const FarmDescription& description, const std::vector<farm::Plot>& plots) {
   const std::size_t trials = description.trials.size();
   for (std::size_t place = 0; place < trials; ++place) {
-    if (std::ranges::count(plots, trial_number(place, trials), &farm::Plot::trial) > 0) continue;
+    if (contains(plots, trial_number(place, trials), &farm::Plot::trial)) continue;
     const std::string section = trials > 1 ? "trials." + std::to_string(place) + ".plots" : "plots";
     throw InputError(description.source, "{}: all {} are missing; a lower missing_rate leaves some",
                      section, plots_of(description.trials[place].plots));

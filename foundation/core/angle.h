@@ -6,7 +6,8 @@
 namespace plotscan {
 
 inline constexpr double kPi = std::numbers::pi;
-// One degree in radians: 30 * kDegrees is an angle of 30 degrees.
+// One degree in radians: 30 * kDegrees is an angle of 30 degrees. Its last bit may differ from that
+// of radians(30).
 inline constexpr double kDegrees = kPi / 180;
 
 constexpr double radians(double angle_deg) { return angle_deg * kPi / 180; }

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -18,7 +19,7 @@ bool is_cloud(const fs::path& file) {
   // Text by other names, .txt and .csv, may be anything.
   static constexpr std::array kExtensions = {".las", ".laz", ".pcd", ".ply",
                                              ".xyz", ".asc", ".pts"};
-  return std::ranges::find(kExtensions, lower_extension(file)) != kExtensions.end();
+  return contains(kExtensions, lower_extension(file));
 }
 
 std::vector<fs::path> tiles_of(const fs::path& folder) {

@@ -6,6 +6,7 @@
 #include <limits>
 #include <optional>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/number_text.h"
 #include "core/parse.h"
@@ -140,7 +141,7 @@ std::vector<std::size_t> places_in_header(const std::filesystem::path& file,
   }
   require_own_names(file, header);
   for (const std::string& name : header.fields) {
-    if (std::ranges::find(wanted, name) == wanted.end())
+    if (!contains(wanted, name))
       throw InputError(file, header.line, "unknown column \"{}\"; known are {}", name,
                        joined(wanted, ","));
   }

@@ -69,6 +69,8 @@ void check(bool condition, const std::string& what) {
 void require_file(const std::filesystem::path& path) {
   std::error_code error;
   if (!std::filesystem::exists(path, error)) throw InputError(path, "no such file");
+  if (std::filesystem::is_directory(path, error))
+    throw InputError(path, "a folder, not a regular file");
   if (!std::filesystem::is_regular_file(path, error)) throw InputError(path, "not a regular file");
   if (!std::ifstream(path, std::ios::binary)) throw InputError(path, "cannot be read");
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "core/geodesy.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -10,6 +9,7 @@
 #include <GeographicLib/UTMUPS.hpp>
 #include <fmt/core.h>
 
+#include "core/contains.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/parse.h"
@@ -92,7 +92,7 @@ std::optional<UtmSystem> utm_system(const std::string& crs) {
 bool is_geographic(const std::string& crs) {
   constexpr std::array kGeographic = {"EPSG:4326", "EPSG:4258", "EPSG:4269",
                                       "EPSG:6318", "EPSG:4283", "EPSG:7844"};
-  return std::ranges::find(kGeographic, crs) != kGeographic.end();
+  return contains(kGeographic, crs);
 }
 
 }  // namespace plotscan

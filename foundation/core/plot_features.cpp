@@ -8,6 +8,7 @@
 #include <fmt/core.h>
 
 #include "core/angle.h"
+#include "core/contains.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/format_version.h"
@@ -24,6 +25,12 @@ namespace plotscan {
 namespace {
 
 using nlohmann::json;
+
+constexpr const char* kMapName = "plots.geojson";
+
+std::filesystem::path truth_in(const std::filesystem::path& farm) {
+  return farm / "truth" / kMapName;
+}
 
 using Projection = std::function<Eigen::Vector2d(const Eigen::Vector2d&)>;
 
@@ -138,7 +145,7 @@ void require_agreement(const PlotBox& box, const PlotBox& polygon, const std::st
 
 // "trial.geojson: feature 3", with the id that people know the plot by.
 std::string name_of(const std::filesystem::path& path, std::size_t place, const PlotFeature& plot) {
-  const std::string feature = fmt::format("{}: feature {}", path.string(), place);
+  std::string feature = fmt::format("{}: feature {}", path.string(), place);
   for (const std::string& property : plot_id_properties())
     if (const auto id = id_in(plot, property))
       return fmt::format("{} ({} \"{}\")", feature, property, id->text());
@@ -289,9 +296,7 @@ PlacedPlots placed_plots(const json& document, const std::filesystem::path& path
 
 }  // namespace
 
-bool is_box_property(const std::string& name) {
-  return std::ranges::find(kBoxProperties, name) != kBoxProperties.end();
-}
+bool is_box_property(const std::string& name) { return contains(kBoxProperties, name); }
 
 json plot_collection(const std::vector<PlotFeature>& plots, const std::string& crs,
                      const std::optional<CoordinateUnits>& units) {
@@ -336,9 +341,22 @@ std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property
 }
 
 std::filesystem::path plot_map_of(const std::filesystem::path& place) {
+  const std::filesystem::path truth = truth_in(place);
+  return std::filesystem::exists(truth) ? truth : estimated_map_of(place);
+}
+
+std::filesystem::path estimated_map_of(const std::filesystem::path& place) {
   if (!std::filesystem::is_directory(place)) return place;
-  const std::filesystem::path of_farm = place / "truth" / "plots.geojson";
-  return std::filesystem::exists(of_farm) ? of_farm : place / "plots.geojson";
+  if (const auto truth = truth_in(place); std::filesystem::exists(truth)) {
+    throw InputError(place,
+                     "is a farm's folder, and its map is the truth; to use that all the same, "
+                     "name the file: {}",
+                     truth.string());
+  }
+  std::filesystem::path map = place / kMapName;
+  if (!std::filesystem::exists(map))
+    throw InputError(place, "is a folder without a map of plots ({})", kMapName);
+  return map;
 }
 
 std::vector<PlotFeature> read_plot_features(const std::filesystem::path& path) {

@@ -59,8 +59,12 @@ const std::vector<std::string>& plot_id_properties();
 // The id in that property of the feature; for "id", also the feature's own member "id".
 std::optional<PlotId> id_in(const PlotFeature& plot, const std::string& property);
 
-// The map that `place` stands for: itself, or that of an estimate's folder, or of a farm's.
+// The map that `place` stands for: itself, or that of an estimate's folder, or of a farm's. Throws
+// InputError on a folder without one.
 std::filesystem::path plot_map_of(const std::filesystem::path& place);
+
+// The same for readers that must not see the truth by mistake: a farm's folder is refused as well.
+std::filesystem::path estimated_map_of(const std::filesystem::path& place);
 
 // Reads what write_plot_features writes, and any FeatureCollection of polygons that are nearly
 // rectangles (from QGIS, say), in metres or the units that the file names: the box is the exact one

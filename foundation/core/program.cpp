@@ -16,6 +16,7 @@
 #include <spdlog/spdlog.h>
 #include <unistd.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/internal/interrupt.h"
 #include "core/internal/program_help.h"
@@ -205,7 +206,7 @@ std::string Program::usage_error(const CLI::ParseError& error,
                                  const std::vector<std::string>& arguments) const {
   const std::string first = arguments.empty() ? "" : arguments.front();
   const std::vector<std::string> commands = names_of(app_, false);
-  const bool known = std::ranges::find(commands, first) != commands.end();
+  const bool known = contains(commands, first);
   const std::string help = "; " + name_ + (known ? " " + first : "") + " --help tells more";
   if (!known && !first.empty() && !first.starts_with('-')) {
     const auto meant = nearest_name(first, commands);
@@ -216,7 +217,7 @@ std::string Program::usage_error(const CLI::ParseError& error,
     const std::vector<std::string> options = names_of(*app_.get_subcommand(first), true);
     for (const std::string& argument : arguments) {
       const std::string given = argument.substr(0, argument.find('='));
-      if (!given.starts_with("--") || std::ranges::find(options, given) != options.end()) continue;
+      if (!given.starts_with("--") || contains(options, given)) continue;
       if (const auto meant = nearest_name(given, options))
         return "there is no option " + given + "; did you mean " + *meant + "?";
     }

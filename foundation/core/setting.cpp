@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "core/contains.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/list_of.h"
@@ -41,7 +42,7 @@ void require_in_range(const std::string& name, double value, const Range& range)
 
 void require_chosen(const std::string& name, const std::optional<std::string>& value,
                     const std::vector<std::string>& choices) {
-  if (!value || choices.empty() || std::ranges::count(choices, *value) > 0) return;
+  if (!value || choices.empty() || contains(choices, *value)) return;
   throw InputError(fmt::format("{} \"{}\" must be one of {}", name, *value, joined(choices, ", ")));
 }
 

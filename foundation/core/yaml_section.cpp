@@ -7,6 +7,7 @@
 
 #include <yaml-cpp/eventhandler.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/format_version.h"
 #include "core/nearest_name.h"
@@ -140,8 +141,7 @@ void require_known(const YamlDocument& document, const YamlDocument::Reading& re
     const auto fail = [&](const std::string& message) {
       document.fail(entry.first.Mark(), path_below(reading.path, key), message);
     };
-    if (std::ranges::count(known, key) == 0)
-      fail("is not a known key; known here are " + joined(known, ", "));
+    if (!contains(known, key)) fail("is not a known key; known here are " + joined(known, ", "));
     if (!seen.insert(key).second) fail("is given twice");
   }
 }
@@ -198,7 +198,7 @@ std::string YamlSection::path_of(const std::string& key) const {
 
 YAML::Node YamlSection::value(const std::string& key) const {
   std::vector<std::string>& asked = reading_->asked;
-  if (std::ranges::count(asked, key) == 0) asked.push_back(key);
+  if (!contains(asked, key)) asked.push_back(key);
   return std::as_const(reading_->node)[key];
 }
 
@@ -218,7 +218,7 @@ void YamlSection::fail_missing(const std::string& key) const {
   std::vector<std::string> unread;
   for (const auto& entry : reading_->node) {
     const std::string other = name_of(entry.first);
-    if (std::ranges::count(reading_->asked, other) == 0) unread.push_back(other);
+    if (!contains(reading_->asked, other)) unread.push_back(other);
   }
   const auto misspelt = nearest_name(key, unread);
   for (const auto& entry : reading_->node) {

@@ -71,7 +71,7 @@ PLOTSCAN_API FieldEstimate estimate_field(const PointsView& points,
 struct EstimateFilesOptions {
   EstimateOptions field = {};      // without boxes of its own: `boxes` names their file
   std::string method = "lattice";  // or "dhami2020", which needs the setting `plots`
-  std::optional<std::filesystem::path> boxes = {};  // a map of plots
+  std::optional<std::filesystem::path> boxes = {};  // a map, or an estimate's folder
   std::optional<std::string> id = {};               // property of the map that holds the plots' ids
   std::optional<std::string> units =
       {};  // of the coordinates, m, cm, mm, ft or us-ft; else the file's

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/contains.h"
 #include "core/coordinate_units.h"
 #include "core/error.h"
 #include "core/output_file.h"
@@ -86,7 +87,7 @@ const Format& writable_format(const fs::path& out) {
 
 void require_options(const Format& format, const fs::path& out, const WriteOptions& options) {
   const auto& encodings = format.encodings;
-  if (!options.encoding.empty() && std::ranges::count(encodings, options.encoding) == 0) {
+  if (!options.encoding.empty() && !contains(encodings, options.encoding)) {
     throw InputError(
         out, "--encoding {} is none of a {}{}", options.encoding, format.name,
         encodings.empty() ? ", which has but one" : "; there are " + joined(encodings, ", "));

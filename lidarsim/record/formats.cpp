@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/formats.h"
 
-#include <algorithm>
-
+#include "core/contains.h"
 #include "core/text.h"
 #include "record/internal/las_file.h"
 #include "record/ros/recorder.h"
@@ -136,7 +135,7 @@ std::string readable_clouds() {
 const Format* find_format(const path& file) {
   const std::string extension = lower_extension(file);
   for (const Format& format : formats())
-    if (std::ranges::count(format.extensions, extension) > 0) return &format;
+    if (contains(format.extensions, extension)) return &format;
   return nullptr;
 }
 

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
@@ -39,8 +40,7 @@ json hashes_of_common_files(const json& manifest) {
   json hashes = json::object();
   for (const json& output : manifest.at("outputs")) {
     const std::string file = output.at("file");
-    if (std::ranges::find(kCommonFiles, file) != std::end(kCommonFiles))
-      hashes[file] = output.at("hash");
+    if (contains(kCommonFiles, file)) hashes[file] = output.at("hash");
   }
   return hashes;
 }

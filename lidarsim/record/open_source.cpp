@@ -10,6 +10,7 @@
 #include <fmt/core.h>
 
 #include "core/angle.h"
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/setting.h"
 #include "core/statistics.h"
@@ -130,7 +131,7 @@ void count_from_first_pose(Source& source, bool is_recording, bool start_is_give
   if (start_is_given || source.info.start)
     flight.start = later(start_is_given ? flight.start : *source.info.start, begin_s);
   source.info.start = flight.start;
-  if (begin_s == 0 || std::ranges::count(source.info.fields, "time") == 0) return;
+  if (begin_s == 0 || !contains(source.info.fields, "time")) return;
   source.stream = [stream = source.stream, begin_s](const scan::PointSink& sink) {
     std::vector<scan::LabelledPoint> counted;
     return stream([&](std::span<const scan::LabelledPoint> points) {

@@ -6,6 +6,7 @@
 #include <functional>
 #include <vector>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/statistics.h"
@@ -111,8 +112,8 @@ void take_time(const Source& source, double time_s, scan::CloudFacts& facts) {
 }
 
 void add_facts(const Source& source, const scan::PositionSink& sink, scan::CloudFacts& facts) {
-  const bool has_returns = std::ranges::count(source.info.fields, "return_number") > 0;
-  const bool has_time = std::ranges::count(source.info.fields, "time") > 0;
+  const bool has_returns = contains(source.info.fields, "return_number");
+  const bool has_time = contains(source.info.fields, "time");
   if (has_returns && !facts.returns) facts.returns.emplace();
   facts.not_finite +=
       stream(source, facts.system, sink, [&](const auto& point, const auto& position) {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/scan_formats.h"
 
-#include <algorithm>
-
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "record/convert.h"
@@ -13,7 +12,7 @@ namespace {
 
 const Format& format_of(const std::string& name) {
   for (const Format& format : formats()) {
-    if (format.create && std::ranges::count(format.extensions, "." + name) > 0) return format;
+    if (format.create && contains(format.extensions, "." + name)) return format;
   }
   throw InputError("--format \"" + name + "\" must be one of pcd, " +
                    joined(further_formats(), ", "));

@@ -4,6 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/contains.h"
+
 namespace plotscan::scanpage {
 namespace {
 
@@ -47,9 +49,7 @@ ShownScan read_shown_scan(const std::filesystem::path& scan, const ReadOptions& 
     done += static_cast<double>(points.size());
     if (progress) progress(std::min(1.0, done / promised));
   });
-  const auto has = [&](const char* field) {
-    return std::ranges::count(source.info.fields, field) > 0;
-  };
+  const auto has = [&](const char* field) { return contains(source.info.fields, field); };
   ShownScan result{.cloud = {.origin = source.info.origin_m,
                              .time_origin_s = time_origin_s,
                              .read = sample.read()},

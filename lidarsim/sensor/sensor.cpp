@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "core/angle.h"
+#include "core/contains.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/text.h"
@@ -195,7 +196,7 @@ Sensor parse_shipped_sensor(const std::string& description, const std::string& n
 }
 
 Sensor load_sensor(const std::string& name_or_file) {
-  if (std::ranges::count(sensor_names(), name_or_file) > 0)
+  if (contains(sensor_names(), name_or_file))
     return parse_shipped_sensor(sensor_file(name_or_file), name_or_file);
   if (!name_or_file.ends_with(".yaml")) {
     throw InputError("sensor \"" + name_or_file + "\" is unknown; there are " +

@@ -313,7 +313,8 @@ def estimate_files(
     clouds: PCD, PLY, LAS or text files, scan folders, folders of tiles, recordings; one or several.
     method: "lattice", or "dhami2020", which needs `plots`.
     crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
-    boxes: a map of the plots (GeoJSON, GeoPackage, shapefile): heights in its boxes, its ids and attributes kept.
+    boxes: a map of the plots (GeoJSON, GeoPackage, shapefile, an estimate's folder): heights in its boxes, its ids and
+        attributes kept.
     id: property of the map, and column of `measured`, that holds the plots' ids.
     units: of the coordinates, "m", "cm", "mm", "ft" or "us-ft"; else what the file states.
     crs: of the coordinates, "EPSG:32617", UTM in metres or degrees; else what the file states.

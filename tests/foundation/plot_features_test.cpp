@@ -13,8 +13,13 @@
 namespace plotscan {
 namespace {
 
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using testing::message_of;
+using testing::TemporaryFolder;
+
 TEST(PlotFeatures, ComeBackAsWritten) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const PlotFeature plot{
       .box = {.center = {1.5, -2.25}, .width_m = 1.5, .length_m = 4, .heading_rad = 0.7},
       .properties = {{"plot_number", 7}, {"height_max_m", 0.61}}};
@@ -29,7 +34,7 @@ TEST(PlotFeatures, ComeBackAsWritten) {
 
 // Polygons in the cloud's feet, attributes in metres.
 TEST(PlotFeatures, AreInTheUnitsOfTheCloud) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder.path() / "feet.geojson";
   const PlotFeature plot{.box = {.center = {30.48, 60.96}, .width_m = 1.5, .length_m = 4}};
   write_plot_features(file, {plot}, "EPSG:2264", CoordinateUnits{kFoot_m, 1});
@@ -55,7 +60,7 @@ std::string foreign(const std::string& ring) {
 
 // A text is its own first entry to who walks through lists; deep lists end the stack.
 TEST(PlotFeatures, RefusesTextForCoordinatesAndDeepNesting) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto refusal = [&](const std::string& ring) {
     const auto file = folder.write("q.geojson", foreign(ring));
     return testing::message_of<InputError>([&] { read_plot_features(file, "EPSG:32616"); });
@@ -69,7 +74,7 @@ TEST(PlotFeatures, RefusesTextForCoordinatesAndDeepNesting) {
 }
 
 TEST(PlotFeatures, ReadsABareRectangle) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto plots =
       read_plot_features(folder.write("q.geojson", foreign("[0,0],[0,3],[-1,3],[-1,0],[0,0]")));
   ASSERT_EQ(plots.size(), 1u);
@@ -80,7 +85,7 @@ TEST(PlotFeatures, ReadsABareRectangle) {
 }
 
 TEST(PlotFeatures, ReadsAMultiPolygonOfOnePart) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::string text = foreign("[0,0],[0,3],[-1,3],[-1,0],[0,0]");
   text.replace(text.find("\"Polygon\""), 9, "\"MultiPolygon\"");
   text.replace(text.find("[[["), 3, "[[[[").replace(text.find("]]]"), 3, "]]]]");
@@ -88,7 +93,7 @@ TEST(PlotFeatures, ReadsAMultiPolygonOfOnePart) {
 }
 
 TEST(PlotFeatures, RefusesAPolygonThatWasMovedAwayFromItsBox) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder.path() / "plots.geojson";
   write_plot_features(file, {{.box = {.center = {100, 50}, .width_m = 1.5, .length_m = 4},
                               .properties = {{"plot_number", 1}}}});
@@ -106,7 +111,7 @@ TEST(PlotFeatures, RefusesAPolygonThatWasMovedAwayFromItsBox) {
 // A turned plot as a GIS rounds it to decimetres, one corner given twice, a vertex on an edge, the
 // ring left open and running clockwise.
 TEST(PlotFeatures, FitsTheNearestRectangle) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const PlotBox box{
       .center = {512345.67, 4123456.78}, .width_m = 1.5, .length_m = 4, .heading_rad = 0.4};
   auto corners = box.corners();
@@ -129,7 +134,7 @@ TEST(PlotFeatures, FitsTheNearestRectangle) {
 }
 
 TEST(PlotFeatures, NamesThePlotThatIsNoRectangle) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   std::string text = foreign("[0,0],[4,0],[4.6,1.5],[0.6,1.5],[0,0]");
   text.replace(text.find("null"), 4, R"({"plot_id": "A-12"})");
   EXPECT_THAT(testing::message_of<InputError>(
@@ -143,7 +148,7 @@ constexpr const char* kFourMetresNorth =
     "[9,3.61896e-5],[9,0]";
 
 TEST(PlotFeatures, TellDegreesOfFewDecimals) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto decimals = [&](const std::string& ring, const std::string& crs = "EPSG:32632") {
     return read_plot_features(folder.write("lonlat.geojson", foreign(ring)), crs).few_decimals;
   };
@@ -156,7 +161,7 @@ TEST(PlotFeatures, TellDegreesOfFewDecimals) {
 }
 
 TEST(PlotFeatures, ConvertsLongitudeAndLatitude) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const std::string crs :
        {"", R"("crs":{"properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)"}) {
     std::string text = foreign(kFourMetresNorth);
@@ -176,7 +181,7 @@ TEST(PlotFeatures, ConvertsLongitudeAndLatitude) {
 // Germany and south-eastern Australia with the latitude first; what lies as near both ways is taken
 // as it stands.
 TEST(PlotFeatures, SuspectsLatitudesThatStandFirst) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto refusal = [&](const std::string& ring, const std::string& crs) {
     std::string text = foreign(ring);
     text.insert(1, R"("crs":{"properties":{"name":"urn:ogc:def:crs:OGC:1.3:CRS84"}},)");
@@ -199,7 +204,7 @@ TEST(PlotFeatures, SuspectsLatitudesThatStandFirst) {
 }
 
 TEST(PlotFeatures, TakesDegreesForMetresNowhere) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto file = [&](const std::string& members) {
     std::string text = foreign(kFourMetresNorth);
     return folder.write("plots.geojson", text.insert(1, members));
@@ -216,7 +221,7 @@ TEST(PlotFeatures, TakesDegreesForMetresNowhere) {
 
 // A GIS's map over a cloud in feet; UTM's code over one in feet makes no degrees.
 TEST(PlotFeatures, TakesTheUnitsOfTheCloud) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder.write("feet.geojson", foreign("[0,0],[0,10],[-5,10],[-5,0],[0,0]"));
   for (const std::string crs : {"", "EPSG:2264", "EPSG:32632"}) {
     const PlacedPlots placed = read_plot_features(file, crs, kFoot_m);
@@ -231,7 +236,7 @@ TEST(PlotFeatures, TakesTheUnitsOfTheCloud) {
 
 // Metres of the cloud's own zone under its other name, and local ones that the file calls local.
 TEST(PlotFeatures, LeavesMetresAsTheyAre) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   for (const std::string members :
        {R"("crs":{"properties":{"name":"urn:ogc:def:crs:EPSG::25832"}},)",
         R"("coordinate_system":"local metres",)"}) {
@@ -244,7 +249,7 @@ TEST(PlotFeatures, LeavesMetresAsTheyAre) {
 }
 
 TEST(PlotFeatures, RefusesWhatIsNoPlot) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto refused = [&](const std::string& text) {
     EXPECT_THROW(read_plot_features(folder.write("bad.geojson", text)), InputError) << text;
   };
@@ -257,7 +262,7 @@ TEST(PlotFeatures, RefusesWhatIsNoPlot) {
 }
 
 TEST(PlotFeatures, AMapOfAMillionPlotsIsRefusedBeforeItIsParsed) {
-  const testing::TemporaryFolder folder;
+  const TemporaryFolder folder;
   const auto file = folder.write("plots.geojson", "{}");
   std::filesystem::resize_file(file, 64'000'001);
   EXPECT_THAT(testing::message_of<InputError>([&] { read_plot_features(file); }),
@@ -271,6 +276,26 @@ TEST(PlotFeatures, AFolderStandsForItsMap) {
   EXPECT_EQ(plot_map_of(folder.path() / "estimate"), map);
   EXPECT_EQ(plot_map_of(folder.path() / "farm"), truth);
   EXPECT_EQ(plot_map_of(map), map);
+  EXPECT_EQ(estimated_map_of(folder.path() / "estimate"), map);
+  EXPECT_EQ(estimated_map_of(truth), truth);
+}
+
+TEST(PlotFeatures, AFolderWithoutAMapIsRefused) {
+  const TemporaryFolder folder;
+  for (const auto map_of : {plot_map_of, estimated_map_of}) {
+    EXPECT_THAT(message_of<InputError>([&] { map_of(folder.path()); }),
+                HasSubstr("is a folder without a map of plots (plots.geojson)"));
+  }
+}
+
+// Even one with a plots.geojson of its own.
+TEST(PlotFeatures, AFarmsFolderIsNoEstimatedMap) {
+  const TemporaryFolder folder;
+  const auto truth = folder.write("farm/truth/plots.geojson", "{}");
+  folder.write("farm/plots.geojson", "{}");
+  EXPECT_THAT(message_of<InputError>([&] { estimated_map_of(folder.path() / "farm"); }),
+              AllOf(HasSubstr("farm: is a farm's folder, and its map is the truth"),
+                    HasSubstr("name the file: " + truth.string())));
 }
 
 }  // namespace

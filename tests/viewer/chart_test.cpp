@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "view/internal/box_labels.h"
 #include "view/internal/height_colours.h"
 #include "view/internal/scale.h"
@@ -75,7 +76,7 @@ TEST(BoxLabels, StandLevelInLargeBoxes) {
 }
 
 TEST(BoxLabels, TurnAlongNarrowBoxes) {
-  const double heading = 130 * std::numbers::pi / 180;
+  const double heading = radians(130);
   const auto labels = row_of_boxes(20, 24, heading);
   const auto placed = place_labels(labels, 20);
   EXPECT_EQ(placed.size(), 20u);

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "core/contains.h"
 #include "farmbench/internal/method_rows.h"
 
 namespace plotscan::farmbench {
@@ -53,15 +54,13 @@ std::vector<std::string> shown_truths(const SuiteResult& result,
                                       const std::vector<TableRow>& table) {
   std::vector<std::string> shown = result.truths;
   if (shown.empty()) shown = {"height_max_m", "height_mean_m"};
-  std::erase_if(shown, [&](const std::string& truth) {
-    return std::ranges::find(table, truth, &TableRow::truth) == table.end();
-  });
+  std::erase_if(
+      shown, [&](const std::string& truth) { return !contains(table, truth, &TableRow::truth); });
   return shown;
 }
 
 std::string published_cm(const SuiteResult& result, const TableRow& row) {
-  if (!result.published || std::ranges::count(result.published->methods, row.method) == 0)
-    return "";
+  if (!result.published || !contains(result.published->methods, row.method)) return "";
   const auto info = std::ranges::find(result.cases, row.case_name, &CaseInfo::name);
   if (info == result.cases.end() || !info->published_rmse_cm) return "";
   return fmt::format("{:.1f}", *info->published_rmse_cm);

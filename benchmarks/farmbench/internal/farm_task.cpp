@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
@@ -86,7 +87,7 @@ Suite suite_of(const RunOptions& options) {
   if (!options.methods.empty()) suite.methods.clear();
   for (const std::string& written : options.methods) {
     const std::string& name = suite.methods.emplace_back(method_name(written));
-    if (std::ranges::find(suite.commands, name, &CommandMethod::name) == suite.commands.end())
+    if (!contains(suite.commands, name, &CommandMethod::name))
       method_named(name);  // throws where it is not known
   }
   for (const std::string& entered : options.entered) {

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/list_of.h"
 #include "score/height_score.h"
@@ -19,7 +20,7 @@ std::vector<MethodHeight> rows_of(const std::string& method,
 }
 
 std::vector<MethodHeight> heights_of(const SuiteResult& result, const std::string& method) {
-  if (std::ranges::count(result.entered, method) == 0) return method_named(method).heights;
+  if (!contains(result.entered, method)) return method_named(method).heights;
   std::set<std::string> names;
   for (const FarmResult& farm : result.farms) {
     for (const MethodResult& run : farm.methods)
@@ -31,7 +32,7 @@ std::vector<MethodHeight> heights_of(const SuiteResult& result, const std::strin
 
 void require_methods(const SuiteResult& result) {
   for (const std::string& method : result.methods) {
-    if (std::ranges::count(result.entered, method) > 0) continue;
+    if (contains(result.entered, method)) continue;
     method_named(method);  // throws where it is not known
     if (std::ranges::count(result.methods, method) > 1)
       throw InputError("the method \"" + method + "\" is named twice");

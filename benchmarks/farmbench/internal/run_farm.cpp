@@ -5,6 +5,7 @@
 #include <iterator>
 
 #include "cloud/cloud_map.h"
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/extent.h"
 #include "core/list_of.h"
@@ -161,8 +162,7 @@ json made_from(const Suite& suite, const SuiteCase& suite_case, std::uint64_t se
                    {"crop_margin_m", suite.crop_margin_m},
                    {"methods", suite.methods}};
   for (const CommandMethod& command : suite.commands) {
-    if (std::ranges::count(suite.methods, command.name) > 0)
-      document["commands"].push_back(made_from(command));
+    if (contains(suite.methods, command.name)) document["commands"].push_back(made_from(command));
   }
   if (suite_case.survey) document["survey_m"] = *suite_case.survey;
   if (suite_case.without_plots) document["without_plots"] = true;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <set>
 
+#include "core/contains.h"
 #include "core/list_of.h"
 #include "core/text.h"
 #include "farmbench/internal/flight_section.h"
@@ -52,8 +53,7 @@ std::vector<SuiteCase> varied(const YamlSection& axes, const std::vector<SuiteCa
       SuiteCase with = one;
       read_fly_setting(entry, setting, with.flight);
       const nlohmann::json value = lidar::settings_json(with.flight).at(axis.key);
-      if (std::ranges::count(axis.values, value) > 0)
-        axes.fail(axis.key, "name " + text_of(value) + " twice");
+      if (contains(axis.values, value)) axes.fail(axis.key, "name " + text_of(value) + " twice");
       axis.values.push_back(value);
       with.name += (with.name.empty() ? "" : "_") + name_of(value);
       all.push_back(std::move(with));
@@ -83,8 +83,7 @@ void require_names(const YamlSection& root, const std::vector<SuiteCase>& cases)
 // The height that is asked about: "mean" where the first method has it.
 std::string read_height(const YamlSection& root, const Suite& suite) {
   const std::string& name = suite.methods.front();
-  if (std::ranges::find(suite.commands, name, &CommandMethod::name) != suite.commands.end())
-    return root.text("height", "mean");
+  if (contains(suite.commands, name, &CommandMethod::name)) return root.text("height", "mean");
   const std::vector<std::string> heights =
       list_of(method_named(name).heights, &MethodHeight::height);
   const std::size_t mean = std::ranges::find(heights, "mean") - heights.begin();

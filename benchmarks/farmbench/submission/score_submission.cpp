@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "farmbench/submission/score_submission.h"
 
-#include <algorithm>
 #include <set>
 #include <utility>
 
 #include <unistd.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/manifest.h"
@@ -169,7 +169,7 @@ SuiteResult earlier_results(const fs::path& output, const Suite& suite) {
   }
   SuiteResult result = read_results(output);
   const auto is_entered = [&](const std::string& method) {
-    return std::ranges::count(result.entered, method) > 0;
+    return contains(result.entered, method);
   };
   Farms held;
   for (FarmResult& farm : result.farms) {
@@ -188,7 +188,7 @@ SuiteResult earlier_results(const fs::path& output, const Suite& suite) {
 
 void require_addable(const Entry& entry, const SuiteResult& earlier,
                      const ScoreSubmissionOptions& options) {
-  if (std::ranges::count(earlier.methods, entry.method) > 0)
+  if (contains(earlier.methods, entry.method))
     throw InputError(options.submission, "\"{}\" is the name of another method of the results",
                      entry.method);
   if (const EnteredFarm* farm = farm_of_other_truth(entry, earlier))

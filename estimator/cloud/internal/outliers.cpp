@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "cloud/internal/outliers.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <optional>
 #include <vector>
 
+#include "core/contains.h"
 #include "core/each_index.h"
 
 namespace plotscan::cloud {
@@ -33,7 +33,7 @@ class Columns {
   // The tile's points that are outliers.
   Marked outliers(std::size_t tile) const {
     const std::vector<char> lonely = lonely_slabs(tile);
-    const bool any_lonely = std::ranges::find(lonely, 1) != lonely.end();
+    const bool any_lonely = contains(lonely, 1);
     if (!any_lonely && within_[tile] == cloud_.size(tile)) return {};
     const Extent extent = any_lonely ? extent_around(tile) : Extent{};
     const double low_m = extent.low_m - options_.lonely_margin_m;

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/internal/esri_grid.h"
 
-#include <algorithm>
 #include <array>
 #include <cctype>
 #include <cmath>
@@ -11,6 +10,7 @@
 #include <string>
 #include <string_view>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/parse.h"
 #include "core/text.h"
@@ -66,7 +66,7 @@ class Header {
   explicit Header(Words& words) : words_(words) {
     while (words.letter_follows()) {
       std::string key = lower_case(words.next().substr(0, 20));
-      if (std::ranges::find(kKeys, key) == kKeys.end()) {
+      if (!contains(kKeys, key)) {
         words.fail("'" + key + "' is no word of an ESRI ASCII grid's header");
       }
       if (values_.contains(key)) words.fail(key + " stands there twice");

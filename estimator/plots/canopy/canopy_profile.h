@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: how high the canopy stands along a line, and how sure that is.
+// How high the canopy stands along a line, and how sure that is.
 
 #include <span>
 #include <vector>

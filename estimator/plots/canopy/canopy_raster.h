@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: where a field is covered by canopy, on a grid along two axes.
+// Where a field is covered by canopy, on a grid along two axes.
 
 #include <algorithm>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: what stands on each square metre of a field.
+// What stands on each square metre of a field.
 
 #include <algorithm>
 #include <cstddef>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: which of a field's points may be canopy.
+// Which of a field's points may be canopy.
 
 #include <cstddef>
 #include <cstdint>

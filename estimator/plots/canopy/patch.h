@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: how smooth the few returns of a small place are.
+// How smooth the few returns of a small place are.
 
 #include <algorithm>
 #include <cmath>

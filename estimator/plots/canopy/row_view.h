@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: a canopy raster as rows of plots see it.
+// A canopy raster as rows of plots see it.
 
 #include <vector>
 

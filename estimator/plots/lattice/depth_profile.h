@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: how deep the canopy is along a line through plots.
+// How deep the canopy is along a line through plots.
 
 #include <vector>
 

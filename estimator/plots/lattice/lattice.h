@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: the lattice on which a field's plots lie, and which of its places hold
-// one.
+// The lattice on which a field's plots lie, and which of its places hold one.
 
 #include <cstddef>
 #include <optional>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: plots, or their drill rows, along one axis of a field.
+// Plots, or their drill rows, along one axis of a field.
 
 #include <limits>
 #include <optional>

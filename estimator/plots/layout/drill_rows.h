@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: bands that are the drill rows of wider plots.
+// Bands that are the drill rows of wider plots.
 
 #include <optional>
 #include <vector>

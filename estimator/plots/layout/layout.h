@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: rows of plots on a canopy raster.
+// Rows of plots on a canopy raster.
 
 #include <optional>
 #include <vector>

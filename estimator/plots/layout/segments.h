@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: which bands of canopy a profile shows.
+// Which bands of canopy a profile shows.
 
 #include <span>
 #include <vector>

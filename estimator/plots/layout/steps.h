@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library.
-
 #include <vector>
 
 namespace plotscan::plots {

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: whether what lies on a lattice is a field of plots, and the rows that
-// the plots are sown in.
+// Whether what lies on a lattice is a field of plots, and the rows that the plots are sown in.
 
 #include <optional>
 #include <string>

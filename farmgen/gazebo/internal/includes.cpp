@@ -9,6 +9,7 @@
 #include <sdf/parser.hh>
 #include <tinyxml2.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "gazebo/internal/quiet.h"
@@ -143,7 +144,7 @@ class Follower {
                        found->string(), known->second.string());
     }
     const fs::path sdf = fs::is_directory(*found) ? sdf_of_model(*found, file, line) : *found;
-    if (std::find(open_.begin(), open_.end(), sdf) != open_.end())
+    if (contains(open_, sdf))
       throw InputError(file, line, "<include> {} goes round in a circle: {}", uri, circle(sdf));
     return follow(sdf);
   }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/internal/resource_finder.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdlib>
 #include <string_view>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 
@@ -89,8 +89,7 @@ std::string ResourceFinder::not_found(const std::string& uri, const fs::path& fr
   }
   std::vector<std::string> names;
   for (const fs::path& path : candidates(uri, from))
-    if (std::find(names.begin(), names.end(), path.string()) == names.end())
-      names.push_back(path.string());
+    if (!contains(names, path.string())) names.push_back(path.string());
   if (names.empty() && (uri.starts_with("model://") || uri.starts_with("package://")))
     return uri + " leads out of the folders of models; name what lies in one";
   if (names.empty()) return uri + " has a scheme that is not known: model, package or file";

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "gazebo/internal/shape_cache.h"
 
-#include <algorithm>
-
 #include <fmt/core.h>
 
+#include "core/contains.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "gazebo/internal/primitive_meshes.h"
@@ -46,7 +45,7 @@ std::uint32_t ShapeCache::of_mesh(const ShapeSpec& given, const std::string& wha
   return index(key, [&] {
     mesh::Mesh read = imported(*file, given.submesh, given.from, what, notes_);
     if (given.centred) put_centre_at_origin(read);
-    if (std::ranges::find(files_, *file) == files_.end()) files_.push_back(*file);
+    if (!contains(files_, *file)) files_.push_back(*file);
     return read;
   });
 }

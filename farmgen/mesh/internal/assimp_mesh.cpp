@@ -16,6 +16,7 @@
 #include <assimp/postprocess.h>
 #include <assimp/scene.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "mesh/internal/mesh_files.h"
 
@@ -106,8 +107,7 @@ Eigen::Affine3d file_from_node(const aiMatrix4x4& m) {
 
 // Metres with z up from the coordinates that assimp hands out.
 Eigen::Affine3d model_from_file(const std::string& extension, const MeshImportOptions& options) {
-  const bool y_up_format =
-      std::find(kYUpFormats.begin(), kYUpFormats.end(), extension) != kYUpFormats.end();
+  const bool y_up_format = contains(kYUpFormats, extension);
   const UpAxis up = options.up.value_or(y_up_format ? UpAxis::y : UpAxis::z);
   Eigen::Affine3d transform = Eigen::Affine3d::Identity();
   if (up == UpAxis::y) transform.matrix() << 1, 0, 0, 0, 0, 0, -1, 0, 0, 1, 0, 0, 0, 0, 0, 1;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "record/ros/ros_points.h"
 
-#include <algorithm>
 #include <cmath>
 #include <map>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/text.h"
 #include "record/ros/internal/cloud_message.h"
@@ -124,7 +124,7 @@ UtcTime RosPoints::start() const {
 }
 
 std::vector<std::string> RosPoints::notes() const {
-  if (std::ranges::count(fields_, "time") > 0 || !trajectory()) return {};
+  if (contains(fields_, "time") || !trajectory()) return {};
   return {"the clouds of " + topic_ +
           " have no times of their points (time, t, timestamp; seconds, or nanoseconds as whole "
           "numbers): each point is placed where the sensor was at its cloud's stamp"};

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "core/contains.h"
 #include "scan/internal/cloud_layout.h"
 
 namespace plotscan::scan {
@@ -73,7 +74,7 @@ bool is_obj(std::string_view start) {
   constexpr std::size_t kMostLines = 20;
   constexpr std::array kNames = {"mtllib"sv, "usemtl"sv, "o"sv, "g"sv, "s"sv};
   for (const auto& words : first_lines(start, kMostLines)) {
-    if (words.size() == 2 && std::ranges::find(kNames, words[0]) != kNames.end()) continue;
+    if (words.size() == 2 && contains(kNames, words[0])) continue;
     return words[0] == "v" && words.size() >= 4 && number_of(words[1]) && number_of(words[2]) &&
            number_of(words[3]);
   }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "scan/internal/wkt.h"
 
-#include <algorithm>
 #include <cctype>
+
+#include "core/contains.h"
 
 namespace plotscan::scan {
 namespace {
@@ -81,7 +82,7 @@ class Parser {
 }  // namespace
 
 const WktNode* WktNode::find(std::initializer_list<std::string_view> keywords) const {
-  if (std::ranges::count(keywords, keyword) > 0) return this;
+  if (contains(keywords, keyword)) return this;
   for (const WktNode& child : children)
     if (const WktNode* found = child.find(keywords)) return found;
   return nullptr;

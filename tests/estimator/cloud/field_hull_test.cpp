@@ -2,12 +2,12 @@
 #include "cloud/internal/field_hull.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/random.h"
 
@@ -76,7 +76,7 @@ TEST(FieldHull, HoldsTheDenseCoreOfAScanOfAnyDensity) {
 }
 
 TEST(FieldHull, FollowsAFieldThatLiesAskew) {
-  const double heading = 40 * std::numbers::pi / 180;
+  const double heading = radians(40);
   const FieldHull field = Survey()
                               .over(100, {500000, 4100000}, 60, 20, heading)
                               .over(5, {500000, 4100000}, 150, 150)

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "estimate/plot_numbers.h"
 
-#include <numbers>
-
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "estimator/synthetic_farm.h"
 #include "temporary_folder.h"
@@ -116,7 +115,7 @@ TEST(PlotNumbers, FollowATurnedField) {
     return centers;
   };
   const auto straight = ids(0);
-  const auto turned = ids(20 * std::numbers::pi / 180);
+  const auto turned = ids(radians(20));
   for (std::size_t i = 0; i < straight.size(); ++i)
     EXPECT_LT((straight[i] - turned[i]).norm(), 1e-9);
 }

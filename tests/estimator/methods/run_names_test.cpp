@@ -54,6 +54,29 @@ TEST(Run, KeepsTheNamesOfGivenPlots) {
   EXPECT_EQ(estimate::read_estimate(options.output).plots[1].id, 8000000000123u);
 }
 
+TEST(Run, AnEarlierEstimatesFolderIsAMap) {
+  const TemporaryFolder folder;
+  RunOptions options = run_in_boxes(folder, {{"plot_number", 42}}, {{"plot_number", 7}});
+  run(options);
+  options.boxes = options.output;
+  options.output = folder.path() / "again";
+  EXPECT_EQ(run(options).plots[0].id, 42u);
+  EXPECT_EQ(read_manifest(options.output)["inputs"][1]["hash"],
+            file_hash(*options.boxes / "plots.geojson"));
+  options.output = *options.boxes / "within";
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("lies in the input"));
+}
+
+TEST(Run, TakesNoFarmsFolderForAMap) {
+  const TemporaryFolder folder;
+  RunOptions options = run_in_boxes(folder, {{"plot_number", 42}}, {{"plot_number", 7}});
+  fs::create_directories(folder.path() / "farm" / "truth");
+  fs::copy_file(*options.boxes, folder.path() / "farm" / "truth" / "plots.geojson");
+  options.boxes = folder.path() / "farm";
+  EXPECT_THAT(message_of<InputError>([&] { run(options); }), HasSubstr("its map is the truth"));
+  EXPECT_FALSE(fs::exists(options.output));
+}
+
 // As if each trial had a map of its own: its crop is not the other's.
 TEST(Run, MeasuresTheTrialsOfAMapOneByOne) {
   const TemporaryFolder folder;

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/manifest.h"
@@ -138,8 +138,8 @@ TEST(Run, DegreesAreProjectedToUtm) {
   std::string text = "lon lat height\n";
   constexpr double kLat = 48;
   for (const Eigen::Vector3d& point : kFarm.points()) {
-    text += format_number(3 + point.x() / (111320 * std::cos(kLat * std::numbers::pi / 180))) +
-            " " + format_number(kLat + point.y() / 111200) + " " + format_number(point.z()) + "\n";
+    text += format_number(3 + point.x() / (111320 * std::cos(radians(kLat)))) + " " +
+            format_number(kLat + point.y() / 111200) + " " + format_number(point.z()) + "\n";
   }
   RunOptions options = small_run(folder, kFarm);
   options.cloud = folder.write("degrees.txt", text);
@@ -193,11 +193,10 @@ TEST(Run, AGivenSystemGoesIntoTheResults) {
   constexpr double kEccentricity2 = 0.00669437999014;
   const Eigen::Vector2d corner = first_corner(options.output);
   const auto& lonlat = degrees["features"][0]["geometry"]["coordinates"][0][0];
-  constexpr double kDegree = std::numbers::pi / 180;
-  EXPECT_NEAR(lonlat[0].get<double>(), 3 + (corner.x() - 500000) / 0.9996 / kSemiMajor_m / kDegree,
+  EXPECT_NEAR(lonlat[0].get<double>(), 3 + (corner.x() - 500000) / 0.9996 / kSemiMajor_m / kDegrees,
               1e-9);
   EXPECT_NEAR(lonlat[1].get<double>(),
-              corner.y() / 0.9996 / (kSemiMajor_m * (1 - kEccentricity2)) / kDegree, 1e-9);
+              corner.y() / 0.9996 / (kSemiMajor_m * (1 - kEccentricity2)) / kDegrees, 1e-9);
 }
 
 }  // namespace

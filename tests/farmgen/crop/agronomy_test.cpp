@@ -3,12 +3,12 @@
 // promises of crop/grow.h.
 #include <cmath>
 #include <cstdlib>
-#include <numbers>
 #include <ostream>
 
 #include <Eigen/Geometry>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "crop/grow.h"
 #include "mesh/measure.h"
 
@@ -65,7 +65,7 @@ struct Inclination {
       const double area = normal.norm() / 2;
       const double level = std::hypot(normal.x(), normal.y());
       area_m2 += area;
-      area_times_deg += area * std::atan2(level, std::abs(normal.z())) * 180 / std::numbers::pi;
+      area_times_deg += area * degrees(std::atan2(level, std::abs(normal.z())));
     }
   }
 };

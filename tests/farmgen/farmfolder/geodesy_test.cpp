@@ -2,7 +2,6 @@
 #include "core/geodesy.h"
 
 #include <cmath>
-#include <numbers>
 
 #include <Eigen/Geometry>
 #include <gmock/gmock.h>
@@ -10,6 +9,7 @@
 #include <nlohmann/json.hpp>
 
 #include "../example_farm.h"
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/plot_features.h"
 #include "description/load_description.h"
@@ -25,7 +25,6 @@ using plotscan::testing::message_of;
 using plotscan::testing::TemporaryFolder;
 using ::testing::HasSubstr;
 
-constexpr double kRadians = std::numbers::pi / 180;
 // WGS84: semi-major axis and flattening (NIMA TR8350.2, table 3.1).
 constexpr double kA_m = 6378137.0;
 constexpr double kFlattening = 1 / 298.257223563;
@@ -41,8 +40,8 @@ double meridian_radius_m(double latitude_rad) {
 
 // Earth-centred coordinates by the closed form (Hofmann-Wellenhof et al., GPS, section 10.2.1).
 Eigen::Vector3d earth_centred(const GeodeticPoint& point) {
-  const double latitude = point.latitude_deg * kRadians;
-  const double longitude = point.longitude_deg * kRadians;
+  const double latitude = point.latitude_deg * kDegrees;
+  const double longitude = point.longitude_deg * kDegrees;
   const double n = normal_radius_m(latitude);
   const double across = (n + point.altitude_m) * std::cos(latitude);
   return {across * std::cos(longitude), across * std::sin(longitude),
@@ -51,8 +50,8 @@ Eigen::Vector3d earth_centred(const GeodeticPoint& point) {
 
 // Columns: east, north and up at the place.
 Eigen::Matrix3d east_north_up(const GeodeticPoint& point) {
-  return (Eigen::AngleAxisd((point.longitude_deg + 90) * kRadians, Eigen::Vector3d::UnitZ()) *
-          Eigen::AngleAxisd((90 - point.latitude_deg) * kRadians, Eigen::Vector3d::UnitX()))
+  return (Eigen::AngleAxisd((point.longitude_deg + 90) * kDegrees, Eigen::Vector3d::UnitZ()) *
+          Eigen::AngleAxisd((90 - point.latitude_deg) * kDegrees, Eigen::Vector3d::UnitX()))
       .toRotationMatrix();
 }
 
@@ -73,9 +72,9 @@ TEST(Geodesy, PointsLieWhereTheClosedFormThroughTheEarthsCentrePutsThem) {
 
 TEST(Geodesy, MetresOfADegreeAreTheEllipsoids) {
   const Anchor anchor{.latitude_deg = 45, .longitude_deg = 7, .altitude_m = 0};
-  const double latitude = 45 * kRadians;
+  const double latitude = 45 * kDegrees;
   const GeodeticPoint north = geodetic_from_world(anchor, {0, 1, 0});
-  EXPECT_NEAR(1 / (north.latitude_deg - 45), meridian_radius_m(latitude) * kRadians, 0.02);
+  EXPECT_NEAR(1 / (north.latitude_deg - 45), meridian_radius_m(latitude) * kDegrees, 0.02);
   // The published lengths of a degree at 45 degrees.
   EXPECT_NEAR(1 / (north.latitude_deg - 45), 111131.8, 0.1);
   const GeodeticPoint east = geodetic_from_world(anchor, {1, 0, 0});
@@ -110,7 +109,7 @@ TEST(Geodesy, AnAnchoredFarmHasItsPlotsInWgs84AsWell) {
   EXPECT_THAT(local["coordinate_system"].get<std::string>(), HasSubstr("local metres"));
   EXPECT_THAT(wgs84["coordinate_system"].get<std::string>(), HasSubstr("WGS84"));
   ASSERT_EQ(wgs84["features"].size(), farm.plots.size());
-  const double latitude = 37.2 * kRadians;
+  const double latitude = 37.2 * kDegrees;
   for (std::size_t i = 0; i < farm.plots.size(); ++i) {
     EXPECT_EQ(wgs84["features"][i]["properties"], local["features"][i]["properties"]);
     const json& ring = wgs84["features"][i]["geometry"]["coordinates"][0];
@@ -122,7 +121,7 @@ TEST(Geodesy, AnAnchoredFarmHasItsPlotsInWgs84AsWell) {
     const Eigen::Vector2d degree_m =
         Eigen::Vector2d((normal_radius_m(latitude) + 620) * std::cos(latitude),
                         meridian_radius_m(latitude) + 620) *
-        kRadians;
+        kDegrees;
     EXPECT_NEAR(signed_area(json(ring)) * degree_m.prod(), farm.plots[i].box.area_m2(), 0.01);
     for (std::size_t corner = 0; corner < 5; ++corner) {
       EXPECT_NEAR((ring[corner][0].get<double>() + 80.58) * degree_m.x(),

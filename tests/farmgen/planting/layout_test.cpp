@@ -5,6 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "../example_farm.h"
+#include "core/angle.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/plot_features.h"
@@ -166,7 +167,7 @@ TEST(Layout, ReproducesTheFixedBeanScene) {
                        Eigen::Vector3d(row.number(2), row.number(3), row.number(4)));
              EXPECT_EQ(plant.scale, Eigen::Vector3d::Constant(row.number(5)));
              const Eigen::Vector3d x_axis = plant.rotation * Eigen::Vector3d::UnitX();
-             const double angle = row.number(6) * M_PI / 180;
+             const double angle = radians(row.number(6));
              EXPECT_NEAR(x_axis.x(), std::cos(angle), 1e-12);
              EXPECT_NEAR(x_axis.y(), std::sin(angle), 1e-12);
              const auto ground = farm.terrain.height(plant.position.x(), plant.position.y());

@@ -49,7 +49,7 @@ double power_at(const std::vector<double>& samples, double frequency) {
 
 TEST(Relief, ASlopeIsAPlaneAtEveryPoint) {
   TerrainDescription description = square(60, 200);
-  description.slope = {.gradient = 0.03, .direction_rad = 45 * kPi / 180};
+  description.slope = {.gradient = 0.03, .direction_rad = radians(45)};
   const Terrain terrain = made(description);
   EXPECT_EQ(terrain.vertices().size(), 204u) << "a plane needs no more vertices";
   for (const Eigen::Vector2d& point : random_points(60, 500)) {

@@ -2,10 +2,10 @@
 // Rays are cast from where the sensor truly is; points are put where the reported poses say.
 #include <cmath>
 #include <map>
-#include <numbers>
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "flight/pose_errors.h"
 #include "lidar/fly.h"
 #include "record/scan_folder.h"
@@ -58,11 +58,10 @@ void expect_plane_turned(const Eigen::Vector3d& boresight_rpy_deg, const Eigen::
 }
 
 TEST(Placing, ABoresightErrorOfOneDegreeTurnsTheGroundByOneDegree) {
-  const double degree = std::numbers::pi / 180;
   using Eigen::AngleAxisd;
   using Eigen::Vector3d;
-  expect_plane_turned({1, 0, 0}, AngleAxisd(degree, Vector3d::UnitX()).toRotationMatrix());
-  expect_plane_turned({0, 1, 0}, AngleAxisd(degree, Vector3d::UnitY()).toRotationMatrix());
+  expect_plane_turned({1, 0, 0}, AngleAxisd(kDegrees, Vector3d::UnitX()).toRotationMatrix());
+  expect_plane_turned({0, 1, 0}, AngleAxisd(kDegrees, Vector3d::UnitY()).toRotationMatrix());
 }
 
 // Straight below, a roll of 1 degree puts the ground 8 m * tan(1 degree) = 14 cm aside.

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "core/manifest.h"
 #include "lidar/fly.h"
@@ -77,7 +77,7 @@ TEST(Sensors, ScanTheGroundBelow) {
     // A range is at most half a step off.
     EXPECT_LT(footprint.height_error_m, 0.5 * sensor.range_step_m + 1e-4) << name;
     if (sensor.wedges) {
-      const double radius_m = kAltitude_m * std::tan(19.2 * std::numbers::pi / 180);
+      const double radius_m = kAltitude_m * std::tan(radians(19.2));
       EXPECT_EQ(summary.points, summary.shots);
       EXPECT_NEAR(footprint.most_x, radius_m, 0.05);
       EXPECT_NEAR(footprint.least_x, -radius_m, 0.05);
@@ -87,12 +87,8 @@ TEST(Sensors, ScanTheGroundBelow) {
     // Across the track as far as the ground goes, or near it; the lowest laser looks back.
     EXPECT_GT(footprint.most_y, 0.9 * kHalfSide_m) << name;
     const std::array<double, 2> elevation_deg = figures["elevation_deg"];
-    EXPECT_LT(footprint.least_x,
-              -kAltitude_m * std::tan(-elevation_deg[0] * std::numbers::pi / 180) + 0.1)
-        << name;
-    EXPECT_GT(footprint.most_x,
-              kAltitude_m * std::tan(elevation_deg[1] * std::numbers::pi / 180) - 0.1)
-        << name;
+    EXPECT_LT(footprint.least_x, -kAltitude_m * std::tan(radians(-elevation_deg[0])) + 0.1) << name;
+    EXPECT_GT(footprint.most_x, kAltitude_m * std::tan(radians(elevation_deg[1])) - 0.1) << name;
     EXPECT_GT(static_cast<double>(summary.points), 0.35 * static_cast<double>(summary.shots))
         << name;
   }

@@ -102,11 +102,11 @@ TEST(Sway, LeansDownwindAsFarAsStated) {
   wind.from_deg = 300;
   const Sway sway({.lean_deg_at_5m_s = 4, .swing = 0}, wind, 60, field());
   const Eigen::Vector2d lean = sway.lean_rad(sway.motion_of(1, {0, 0}, 0.8), 10);
-  const double expected = kMaxLean_rad * std::tanh(4 * kPi / 180 / kMaxLean_rad);
+  const double expected = kMaxLean_rad * std::tanh(radians(4) / kMaxLean_rad);
   EXPECT_NEAR(lean.norm(), expected, 1e-12);
   // From 300 degrees clockwise from north: to 120, east-south-east.
-  EXPECT_NEAR(lean.x() / lean.norm(), std::sin(120 * kPi / 180), 1e-12);
-  EXPECT_NEAR(lean.y() / lean.norm(), std::cos(120 * kPi / 180), 1e-12);
+  EXPECT_NEAR(lean.x() / lean.norm(), std::sin(radians(120)), 1e-12);
+  EXPECT_NEAR(lean.y() / lean.norm(), std::cos(radians(120)), 1e-12);
 }
 
 TEST(Sway, SwingsAtItsFrequencyByHeight) {

@@ -66,7 +66,7 @@ TEST(SwayingScene, ScannedStickLiesOnTheBentChain) {
   const Eigen::Vector3d foot_m(1, 2, 0.3);
   const SceneContent content = scene_content(stick_farm(1.6f, foot_m));
   const Scene scene(content, steady_sway(content, 1.6, 15));
-  const double lean = kMaxLean_rad * std::tanh(15 * kPi / 180 / kMaxLean_rad);
+  const double lean = kMaxLean_rad * std::tanh(radians(15) / kMaxLean_rad);
   // Corners of the chain in closed form: on a circle.
   const double turn = 2 * lean / BentStem::kLinks;
   const double radius_m = 1.6 / BentStem::kLinks / (2 * std::sin(turn / 2));

@@ -37,7 +37,8 @@ TEST_F(Convert, PcdComesBackByteForByte) {
   EXPECT_EQ(file_hash(out), file_hash(scan_ / "cloud.pcd"));
 }
 
-// From a scan to every cloud format, and from each on to the next: the same points, but for LAS' steps.
+// From a scan to every cloud format, and from each on to the next: the same points, but for LAS'
+// steps.
 TEST_F(Convert, EveryCloudFormatHoldsEveryField) {
   struct Kind {
     const char* extension;

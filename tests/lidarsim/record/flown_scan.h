@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
-#include <numbers>
 #include <string>
 #include <vector>
 
+#include "core/angle.h"
 #include "lidar/fly.h"
 #include "lidarsim/lidar/small_farm.h"
 #include "record/scan_folder.h"
@@ -80,8 +80,8 @@ inline std::vector<Measured> measured(const FlownScan& scan) {
         flight.reported.world_from_body(point.time) * flight.body_from_lidar;
     const Eigen::Vector3d origin = world_from_lidar * Eigen::Vector3d(0, 0, laser.offset_m);
     shot.range_m = (Eigen::Vector3d(point.x, point.y, point.z) - origin).norm();
-    shot.azimuth_deg = std::fmod(
-        360 * flight.spin_hz * point.time + laser.azimuth_rad * 180 / std::numbers::pi, 360);
+    shot.azimuth_deg =
+        std::fmod(360 * flight.spin_hz * point.time + degrees(laser.azimuth_rad), 360);
     all.push_back(shot);
   }
   return all;

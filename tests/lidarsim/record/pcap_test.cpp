@@ -9,6 +9,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "lidarsim/record/flown_scan.h"
 #include "lidarsim/record/hovering.h"
@@ -92,7 +93,7 @@ TEST_F(Pcap, ReadsBackAsTheRangesAzimuthsAndTimesOfTheCloud) {
     const Eigen::Vector3d way(point.x, point.y, point.z - laser.offset_m);
     ASSERT_NEAR(way.norm(), expected[i].range_m, 1e-4);  // 2 mm steps on both sides
     ASSERT_NEAR(std::asin(way.z() / way.norm()), laser.elevation_rad, 1e-6);
-    const double azimuth_deg = std::atan2(-point.y, point.x) * 180 / std::numbers::pi;
+    const double azimuth_deg = degrees(std::atan2(-point.y, point.x));
     ASSERT_LT(azimuth_error_deg(azimuth_deg, expected[i].azimuth_deg), 0.0151);
     ASSERT_NEAR(point.time, cloud.time, 0.6e-6);
     ASSERT_EQ(point.ring, cloud.ring);
@@ -113,7 +114,7 @@ TEST_F(Pcap, WithPosesThePointsAreWhereTheCloudHasThem) {
     };
     const double range_m = (position(scan().points[i]) - Eigen::Vector3d(-1, 0.5, 7)).norm();
     ASSERT_LT((position(read_back.points[i]) - position(scan().points[i])).norm(),
-              0.0155 / 180 * std::numbers::pi * (range_m + 1));
+              radians(0.0155) * (range_m + 1));
   }
 }
 

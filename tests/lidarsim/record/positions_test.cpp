@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "lidarsim/record/ros_flight.h"
 #include "record/convert.h"
@@ -102,7 +103,7 @@ TEST(RecordedPositions, OfAPcapLieAlongItsTrajectory) {
   CloudFiles cloud(pcap);
   EXPECT_THAT(refusal(cloud), HasSubstr("flight.pcap: does not say where the sensor was"));
   cloud.recording = {.trajectory = tum,
-                     .mount_rpy_deg = Eigen::Vector3d(0.02, 1.5, -0.03) * 180 / std::numbers::pi};
+                     .mount_rpy_deg = Eigen::Vector3d(0.02, 1.5, -0.03) / kDegrees};
   const auto positions = positions_of(cloud);
   ASSERT_EQ(positions.size(), points.size());
   for (std::size_t i = 0; i < positions.size(); ++i) {

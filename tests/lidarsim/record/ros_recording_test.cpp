@@ -5,6 +5,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "lidarsim/record/ros_flight.h"
 #include "lidarsim/record/ros_readers.h"
 #include "record/ros/ros_points.h"
@@ -237,8 +238,8 @@ Eigen::Vector3d earth_centred(double latitude_deg, double longitude_deg, double 
   constexpr double kA = 6378137.0;
   constexpr double kF = 1 / 298.257223563;
   constexpr double kE2 = kF * (2 - kF);
-  const double latitude = latitude_deg * std::numbers::pi / 180;
-  const double longitude = longitude_deg * std::numbers::pi / 180;
+  const double latitude = radians(latitude_deg);
+  const double longitude = radians(longitude_deg);
   const double n = kA / std::sqrt(1 - kE2 * std::pow(std::sin(latitude), 2));
   return {(n + altitude_m) * std::cos(latitude) * std::cos(longitude),
           (n + altitude_m) * std::cos(latitude) * std::sin(longitude),
@@ -247,8 +248,8 @@ Eigen::Vector3d earth_centred(double latitude_deg, double longitude_deg, double 
 
 TEST_P(RosRecording, FixesLieWhereTheDroneReportsToBe) {
   const auto fixes = read().messages("/gps/fix");
-  const double latitude = 37.2 * std::numbers::pi / 180;
-  const double longitude = -80.5 * std::numbers::pi / 180;
+  const double latitude = radians(37.2);
+  const double longitude = radians(-80.5);
   Eigen::Matrix3d enu;  // rows: east, north, up at the anchor
   enu << -std::sin(longitude), std::cos(longitude), 0, -std::sin(latitude) * std::cos(longitude),
       -std::sin(latitude) * std::sin(longitude), std::cos(latitude),

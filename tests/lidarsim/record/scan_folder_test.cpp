@@ -6,6 +6,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "lidar/fly.h"
 #include "lidarsim/lidar/small_farm.h"
@@ -28,8 +29,8 @@ TEST(ScanFolder, SaysHowThePointsWerePlaced) {
   const FlightRecord flight = read_flight_record(folder.path() / "scan");
   EXPECT_EQ(flight.sensor.name, "vlp16");
   EXPECT_EQ(flight.spin_hz, 20);
-  EXPECT_TRUE(flight.body_from_lidar.isApprox(
-      mount_pose(Eigen::Vector3d(10, 80, -20) * EIGEN_PI / 180), 1e-12));
+  EXPECT_TRUE(
+      flight.body_from_lidar.isApprox(mount_pose(Eigen::Vector3d(10, 80, -20) * kDegrees), 1e-12));
   EXPECT_EQ(format_utc(flight.start), "2025-07-01T08:30:00Z");
   EXPECT_EQ(flight.anchor->latitude_deg, 37.2);
   EXPECT_EQ(flight.anchor->altitude_m, 610);

@@ -5,6 +5,7 @@
 
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "lidarsim/record/flown_scan.h"
 #include "lidarsim/record/hovering.h"
 #include "record/convert.h"
@@ -45,7 +46,7 @@ void expect_measured(const FlownScan& scan, const std::vector<scan::LabelledPoin
     const double steps = way.norm() / scan.flight.sensor.packets->distance_step_m;
     ASSERT_NEAR(steps, std::round(steps), 0.01);
     ASSERT_NEAR(std::asin(way.z() / way.norm()), laser.elevation_rad, 1e-6);
-    const double azimuth_deg = std::atan2(-point.y, point.x) * 180 / std::numbers::pi;
+    const double azimuth_deg = degrees(std::atan2(-point.y, point.x));
     ASSERT_LT(testing::azimuth_error_deg(azimuth_deg, expected[i].azimuth_deg), 0.0151);
     ASSERT_NEAR(point.time, cloud.time, 0.6e-6);
     ASSERT_EQ(point.ring, cloud.ring);
@@ -115,10 +116,9 @@ TEST(VelodyneDecoder, RaysMayBeginOffTheSpinAxis) {
   decoder.decode(packet, 0, points);
   ASSERT_EQ(points.size(), 1U);
   // Azimuth 90 degrees is -y; the beam of laser 0 is 1.4 degrees ahead and 25 below.
-  const double degree = std::numbers::pi / 180;
-  EXPECT_NEAR(points[0].x, -4 * std::cos(25 * degree) * std::sin(1.4 * degree), 1e-6);
-  EXPECT_NEAR(points[0].y, -0.4 - 4 * std::cos(25 * degree) * std::cos(1.4 * degree), 1e-6);
-  EXPECT_NEAR(points[0].z, -4 * std::sin(25 * degree), 1e-6);
+  EXPECT_NEAR(points[0].x, -4 * std::cos(25 * kDegrees) * std::sin(1.4 * kDegrees), 1e-6);
+  EXPECT_NEAR(points[0].y, -0.4 - 4 * std::cos(25 * kDegrees) * std::cos(1.4 * kDegrees), 1e-6);
+  EXPECT_NEAR(points[0].z, -4 * std::sin(25 * kDegrees), 1e-6);
 }
 
 }  // namespace

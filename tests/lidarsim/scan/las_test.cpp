@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <cmath>
 #include <cstring>
-#include <numbers>
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/angle.h"
 #include "core/error.h"
 #include "lidarsim/scan/numbered_point.h"
 #include "readers/node_reader.h"
@@ -88,7 +88,7 @@ TEST(Las, ANodePackageReadsEveryField) {
     ASSERT_EQ(points["ReturnNumber"][i], p.return_number);
     ASSERT_EQ(points["NumberOfReturns"][i], p.return_count);
     ASSERT_EQ(points["Classification"][i], asprs[i % 5]);
-    ASSERT_NEAR(points["ScanAngle"][i], 1e-3 * (i - 500.0) * 180 / std::numbers::pi, 0.00301);
+    ASSERT_NEAR(points["ScanAngle"][i], degrees(1e-3 * (i - 500.0)), 0.00301);
     ASSERT_EQ(points["PointSourceId"][i], 1);
     ASSERT_NEAR(points["GpsTime"][i].get<double>(), gps_s + p.time, 1e-7);
     ASSERT_EQ(points["ring"][i], p.ring);
@@ -149,7 +149,7 @@ TEST(Las, ScanAnglesArePositiveToTheRightOfTheFlight) {
   const auto angle_deg = [&](double speed_m_s, float y, float z) {
     const Trajectory trajectory = flight(speed_m_s);
     const LabelledPoint point{.x = static_cast<float>(5 * speed_m_s), .y = y, .z = z, .time = 5};
-    return ScanAngles(trajectory, mount).angle_rad(point) * 180 / std::numbers::pi;
+    return degrees(ScanAngles(trajectory, mount).angle_rad(point));
   };
   EXPECT_NEAR(angle_deg(2, 0, 0), 0, 1e-6);
   EXPECT_NEAR(angle_deg(2, -10, 0), 45, 1e-5);

@@ -28,7 +28,7 @@ Eigen::Vector3d refracted(const Eigen::Vector3d& ray, const Eigen::Vector3d& nor
 // The Mid-40's beam through four surfaces (Brazeal et al. 2021, section 3), each prism turned as a
 // body about x.
 Eigen::Vector3d plain_direction(double time_s) {
-  constexpr double kWedge = 18 * kPi / 180;
+  constexpr double kWedge = radians(18);
   constexpr double kGlass = 1.51;
   const Eigen::Vector3d x = Eigen::Vector3d::UnitX();
   const Eigen::AngleAxisd first(2 * kPi * std::fmod(7294.0 / 60 * time_s, 1), x);
@@ -97,8 +97,8 @@ TEST(Risley, FieldOfViewIsTheDataSheets) {
     greatest = std::max(greatest, off_axis);
     least = std::min(least, off_axis);
   });
-  EXPECT_NEAR(2 * greatest * 180 / kPi, 38.4, 0.05);
-  EXPECT_LT(least * 180 / kPi, 0.1);
+  EXPECT_NEAR(degrees(2 * greatest), 38.4, 0.05);
+  EXPECT_LT(degrees(least), 0.1);
   const auto deflections = deflections_rad(*load_sensor("livox_mid40").wedges);
   EXPECT_NEAR(deflections[0], greatest, 1e-6);
   EXPECT_NEAR(deflections[1], 0, 1e-12);
@@ -109,7 +109,7 @@ TEST(Risley, FieldOfViewIsTheDataSheets) {
 double coverage(double duration_s) {
   constexpr double kCell_rad = 5e-3;
   constexpr int kHalf = 80;
-  const double radius = 19.2 * kPi / 180;
+  const double radius = radians(19.2);
   std::set<std::pair<int, int>> hit;
   for_every_shot(mid40(duration_s), [&](double, const Eigen::Vector3d& direction) {
     hit.emplace(std::floor(std::atan2(direction.y(), direction.x()) / kCell_rad),

@@ -29,8 +29,8 @@ ManualShot plain_shot(std::uint64_t shot, double spin_hz, const Eigen::Isometry3
   const std::uint64_t laser = shot % 16;
   const double time_s =
       55.296e-6 * static_cast<double>(shot / 16) + 2.304e-6 * static_cast<double>(laser);
-  const double azimuth = std::fmod(360 * spin_hz * time_s, 360) * kPi / 180;
-  const double elevation = kElevation_deg[laser] * kPi / 180;
+  const double azimuth = radians(std::fmod(360 * spin_hz * time_s, 360));
+  const double elevation = radians(kElevation_deg[laser]);
   const Eigen::Isometry3d world_from_lidar =
       trajectory.world_from_body(trajectory.start_s() + time_s) * body_from_lidar;
   const Eigen::Vector3d direction(std::cos(elevation) * std::cos(azimuth),
@@ -141,10 +141,10 @@ TEST(Shots, BeamsAskewAndLockedToTheAzimuth) {
           trajectory.world_from_body(trajectory.start_s() + time_s) * mount;
       // Clockwise from above, hence the minus.
       const auto about_z = [](double angle_deg) {
-        return Eigen::AngleAxisd(-angle_deg * kPi / 180, Eigen::Vector3d::UnitZ());
+        return Eigen::AngleAxisd(-radians(angle_deg), Eigen::Vector3d::UnitZ());
       };
       const double head_deg = std::fmod(360 * kSpin_hz * time_s, 360);
-      const double elevation = kAskewElevation_deg[k] * kPi / 180;
+      const double elevation = radians(kAskewElevation_deg[k]);
       const Eigen::Vector3d origin = world_from_lidar * (about_z(head_deg) * askew_origin_m[k]);
       const Eigen::Vector3d direction =
           world_from_lidar.linear() *

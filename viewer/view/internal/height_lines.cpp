@@ -9,6 +9,7 @@
 
 #include <fmt/core.h>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/text.h"
@@ -45,8 +46,7 @@ std::vector<Rgb> colours_of(const std::vector<std::string>& names) {
   std::vector<Rgb> colours;
   for (const auto& colour : own) {
     const auto is_free = [&](const Rgb& other) {
-      return std::ranges::count(own, std::optional(other)) == 0 &&
-             std::ranges::count(colours, other) == 0;
+      return !contains(own, std::optional(other)) && !contains(colours, other);
     };
     colours.push_back(colour ? *colour : *std::ranges::find_if(kOfOthers, is_free));
   }

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "core/angle.h"
+#include "core/contains.h"
 #include "core/csv.h"
 #include "core/error.h"
 #include "core/json_text.h"
@@ -41,8 +42,8 @@ const std::vector<std::string>& other_columns() {
 }
 
 void require_known_column(const std::string& column, const fs::path& file, Problems& problems) {
-  if (is_height_column(column) || std::ranges::count(other_columns(), column) > 0 ||
-      std::ranges::count(estimate::kBoxErrors, column) > 0)
+  if (is_height_column(column) || contains(other_columns(), column) ||
+      contains(estimate::kBoxErrors, column))
     return;
   std::vector<std::string> names = other_columns();
   for (const char* height : {"mean", "max", "p50", "p90", "p95", "p99", "canopy_p95", "canopy_p99"})
@@ -56,7 +57,7 @@ void require_known_column(const std::string& column, const fs::path& file, Probl
 // A table of ids alone measures nothing.
 void require_content(const CsvTable& table, const fs::path& file, Problems& problems) {
   const auto says_something = [](const std::string& column) {
-    return is_height_column(column) || std::ranges::count(kBoxProperties, column) > 0;
+    return is_height_column(column) || contains(kBoxProperties, column);
   };
   if (!table.lines.empty() && std::ranges::none_of(table.columns, says_something))
     problems.add(file.filename().string() + ":1",
@@ -134,7 +135,7 @@ EnteredRow row_of(const CsvTable& table, const CsvTable::Line& line, const fs::p
   EnteredRow row{.place = file.filename().string() + ":" + std::to_string(line.line)};
   for (std::size_t i = 0; i < table.columns.size(); ++i) {
     const std::string& column = table.columns[i];
-    const bool known = is_height_column(column) || std::ranges::count(other_columns(), column) > 0;
+    const bool known = is_height_column(column) || contains(other_columns(), column);
     if (!known || is_absent(line.fields[i])) continue;
     json value = cell_of(column, line.fields[i], row.place, problems);
     if (!value.is_null()) row.properties[column] = std::move(value);

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/json_text.h"
 #include "core/text.h"
@@ -43,9 +44,7 @@ void read_statement(const fs::path& file, Submission& submission, Problems& prob
   submission.program_sha256 = text_in(document, "program_sha256");
   if (!is_table_name(submission.method))
     problems.add(name, "method is no name of 1 to 40 letters, digits, '-' and '_'");
-  const bool is_ours = std::ranges::any_of(
-      known_methods(), [&](const Method& method) { return method.name == submission.method; });
-  if (is_ours)
+  if (contains(known_methods(), submission.method, &Method::name))
     problems.add(name,
                  "\"" + submission.method + "\" is one of Plotscan's methods; choose another");
   if (document.contains("program_sha256") && !is_sha256(submission.program_sha256))
@@ -89,7 +88,7 @@ Submission read_submission(const fs::path& folder, const std::vector<BlindField>
   std::ranges::sort(files);
   for (const fs::path& file : files) {
     const std::string code = file.stem().string();
-    if (std::ranges::find(fields, code, &BlindField::code) == fields.end()) {
+    if (!contains(fields, code, &BlindField::code)) {
       problems.add(file.filename().string(),
                    "no field is called " + code + "; of this suite with these --seeds and " +
                        "--secret-file they are called such as " + fields.front().code);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: where each plot's canopy lies by itself.
+// Where each plot's canopy lies by itself.
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: where a field's lattice ends.
+// Where a field's lattice ends.
 
 #include "plots/lattice/lattice.h"
 

@@ -14,21 +14,40 @@ namespace plotscan::plots {
 namespace {
 
 constexpr double kReach_m = 0.2;     // beyond a plot's sides
+constexpr double kWithin = 0.1;      // within them, of a plot's shorter side
 constexpr double kMoveStep_m = 0.1;  // of sides that are moved, chosen
 constexpr double kMostMoved = 0.5;   // of a plot's shorter side: half of it stays in its place
 
+int cells_of(const RowView& view, double length_m) {
+  return static_cast<int>(std::lround(length_m / view.cell_m()));
+}
+
 std::array<double, 2> contrasts_across_r(const RowView& view, const CellBox& box) {
   const auto [r0, r1, c0, c1] = box;
-  const int reach = static_cast<int>(std::lround(kReach_m / view.cell_m()));
+  const int reach = cells_of(view, kReach_m);
   const int inset = (c1 - c0) / 8, ca = c0 + inset, cb = c1 - inset;
   return {view.cover(r0, r0 + reach, ca, cb) - view.cover(r0 - reach, r0, ca, cb),
           view.cover(r1 - reach, r1, ca, cb) - view.cover(r1, r1 + reach, ca, cb)};
 }
 
+// Mean cover within a box, off its edges, less that beyond its sides across r.
+double rise_across_r(const RowView& view, const CellBox& box, int r_margin, int c_margin) {
+  const auto [r0, r1, c0, c1] = box;
+  const int reach = cells_of(view, kReach_m);
+  return view.cover(r0 + r_margin, r1 - r_margin, c0 + c_margin, c1 - c_margin) -
+         (view.cover(r0 - reach, r0, c0, c1) + view.cover(r1, r1 + reach, c0, c1)) / 2;
+}
+
+// The middle half along c: leaves of what stands beside hang over the rest.
+CellBox middle_in_c(const CellBox& box) {
+  const int quarter = (box.c1 - box.c0) / 4;
+  return {box.r0, box.r1, box.c0 + quarter, box.c1 - quarter};
+}
+
 }  // namespace
 
 double inner_cover(const Lattice& lattice, const Place& place) {
-  const double margin_m = 0.1 * std::min(lattice.r.size_m, lattice.c.size_m);
+  const double margin_m = kWithin * std::min(lattice.r.size_m, lattice.c.size_m);
   const CellBox box = cells_about(lattice, place, -margin_m);
   return lattice.view.cover(box.r0, box.r1, box.c0, box.c1);
 }
@@ -50,13 +69,19 @@ double mean_at_gaps(const Lattice& lattice, const SideContrast& contrast) {
 }
 
 SideContrast rise_of(const Lattice& lattice, const Place& place) {
-  const auto [r0, r1, c0, c1] = cells_about(lattice, place, 0);
-  const int reach = static_cast<int>(std::lround(kReach_m / lattice.view.cell_m()));
-  const RowView& view = lattice.view;
-  const double inner = inner_cover(lattice, place);
-  return {
-      .r = inner - (view.cover(r0 - reach, r0, c0, c1) + view.cover(r1, r1 + reach, c0, c1)) / 2,
-      .c = inner - (view.cover(r0, r1, c0 - reach, c0) + view.cover(r0, r1, c1, c1 + reach)) / 2};
+  const double width_m = std::min(lattice.r.size_m, lattice.c.size_m);
+  const int margin = cells_of(lattice.view, kWithin * width_m);
+  const CellBox box = cells_about(lattice, place, 0);
+  const CellBox turned = {box.c0, box.c1, box.r0, box.r1};
+  const bool touches_r = lattice.r.touching_m.has_value();
+  const bool touches_c = lattice.c.touching_m.has_value();
+  if (touches_r == touches_c)
+    return {.r = rise_across_r(lattice.view, box, margin, margin),
+            .c = rise_across_r(lattice.view.turned(), turned, margin, margin)};
+  const double rise = touches_c
+                          ? rise_across_r(lattice.view, middle_in_c(box), margin, 0)
+                          : rise_across_r(lattice.view.turned(), middle_in_c(turned), margin, 0);
+  return {.r = rise, .c = rise};
 }
 
 SideContrast usual_sides(const Lattice& lattice,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: the canopy at a place of a lattice.
+// The canopy at a place of a lattice.
 
 #include <algorithm>
 #include <array>
@@ -35,7 +35,9 @@ double mean_at_gaps(const Lattice& lattice, const SideContrast& contrast);
 // The same of either side across r, before and after the plot.
 std::array<double, 2> r_contrasts_of(const Lattice& lattice, const Place& place);
 
-// Mean cover within the plot, off its edges, less that beyond its sides.
+// Mean cover within the plot, off its edges, less that beyond its sides. Where plots touch along
+// one axis, what lies beyond the sides there is a neighbour: the rise is that at the other sides,
+// of the plot's middle half.
 SideContrast rise_of(const Lattice& lattice, const Place& place);
 
 // Medians of either one over the places that hold a plot.

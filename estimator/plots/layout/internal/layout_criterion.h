@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: how well a layout explains a field, cell by cell.
+// How well a layout explains a field, cell by cell.
 
 #include <cstdint>
 #include <vector>

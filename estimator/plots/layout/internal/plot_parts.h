@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: bands that are parts of wider plots.
+// Bands that are parts of wider plots.
 
 #include <optional>
 #include <span>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: plots side by side without a gap, as in breeding trials whose rows run on
-// at one spacing from plot to plot.
+// Plots side by side without a gap, as in breeding trials whose rows run on at one spacing from
+// plot to plot.
 
 #include <optional>
 #include <span>

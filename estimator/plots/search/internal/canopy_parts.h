@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: the parts of a field's canopy that lie apart from each other.
+// The parts of a field's canopy that lie apart from each other.
 
 #include <cstddef>
 #include <span>

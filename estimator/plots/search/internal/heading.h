@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: the two directions along which a field's alleys run.
+// The two directions along which a field's alleys run.
 
 #include <optional>
 #include <vector>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: where a survey ends.
+// Where a survey ends.
 
 #include <functional>
 

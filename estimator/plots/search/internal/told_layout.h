@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: layouts beside what the user tells of them.
+// Layouts beside what the user tells of them.
 
 #include <string>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: the ground that a trial takes.
+// The ground that a trial takes.
 
 #include <span>
 #include <vector>

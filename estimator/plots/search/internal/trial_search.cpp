@@ -174,10 +174,13 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   const double leaves_m = std::max(low_m, kLeavesFrom * field.scale().high_m);
   const std::array scales = {field.scale(), leaves_above(leaves_m), leaves_above(low_m)};
   const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
-  const CanopyRaster &canopy = rasters[0], &cover = rasters[1], &low_leaves = rasters[2];
+  const CanopyRaster &canopy = rasters[0], &low_leaves = rasters[2];
+  // Beside a giant a dwarf that touches it is as good as bare, unless every leaf counts.
+  const bool touching = model == LineModel::touching;
+  const CanopyRaster& cover = touching ? low_leaves : rasters[1];
   tbb::task_arena arena(threads);
   Choice choice;
-  arena.execute([&] { choice = choose_layout(canopy, hints, model); });
+  arena.execute([&] { choice = choose_layout(touching ? low_leaves : canopy, hints, model); });
   auto& [layout, rival] = choice;
   if (layout.rows.empty()) return {no_plots(no_layout(hints, rival))};
 
@@ -193,8 +196,7 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   Look look{no_plots(refused_because(fit.layout, signs, in_gaps, hints, model))};
   look.field.fit = std::move(fit);
   look.field.signs = signs;
-  if (hints.tell_layout() && model != LineModel::touching)
-    look.field.doubt = no_plots_because(signs);
+  if (hints.tell_layout() && !touching) look.field.doubt = no_plots_because(signs);
   if (rival && !are_rows(*rival, rows)) look.field.rival = text_of(*rival);
   look.explained = held_share(with_gaps(lattice));
   if (!look.field.why_none.empty()) {

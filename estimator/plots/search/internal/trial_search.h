@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: the search of a field for plots of one size at equal steps.
+// The search of a field for plots of one size at equal steps.
 
 #include <cstddef>
 #include <span>

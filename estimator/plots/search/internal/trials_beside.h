@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: trials beside each other on one field (docs/plot-finding.md, step 12).
+// Trials beside each other on one field (docs/plot-finding.md, step 12).
 
 #include <cstddef>
 #include <vector>

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-// Private to the library: whether what lies on a lattice has the gaps, the straight sides and the
-// rough tops of plots.
+// Whether what lies on a lattice has the gaps, the straight sides and the rough tops of plots.
 
 #include <span>
 

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "core/contains.h"
 #include "core/error.h"
 
 namespace plotscan::record::ros {
@@ -82,7 +83,7 @@ std::vector<std::string> parts_of(const Definition& definition) {
 }
 
 void collect(const Definition& definition, std::vector<const Definition*>& all) {
-  if (std::ranges::count(all, &definition) > 0) return;
+  if (contains(all, &definition)) return;
   all.push_back(&definition);
   for (const std::string& part : parts_of(definition)) collect(definition_of(part), all);
 }

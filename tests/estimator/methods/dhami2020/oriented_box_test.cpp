@@ -64,7 +64,7 @@ TEST(MinimumAreaBox, RecoversARectangleAtAnyHeading) {
     const PlotBox truth{.center = {500000.0, 5000000.0},
                         .width_m = 1.5,
                         .length_m = 4,
-                        .heading_rad = degrees * kPi / 180};
+                        .heading_rad = radians(degrees)};
     std::vector<Eigen::Vector2d> points;
     for (int i = 0; i <= 20; ++i) {
       for (int j = 0; j <= 10; ++j) {

@@ -120,6 +120,28 @@ TEST(Lattice, HasPlotsThatAreMuchLower) {
   expect_places(layout_of(fit_lattice(layout, {}, &all)), trial);
 }
 
+// Tall plots, whose leaves hang 0.3 m over what they touch: a low plot, and a place without one.
+TEST(Lattice, HasLowPlotsThatTouchTallOnes) {
+  TrialLayout bands = known_trial({0, 0, 0}, 6);
+  bands.column_pitch_m = bands.width_m;
+  for (TrialPlace& place : bands.places)
+    place.position_m.x() = 2 + (place.column - 1) * bands.width_m;
+  TrialLayout trial = bands;
+  const TrialPlace low = trial.places[8], none = trial.places[10];
+  trial.places.erase(trial.places.begin() + 10);
+  const CanopyRaster leaves = raster_of(14, 13, [&](double x, double y) {
+    for (const TrialPlace& place : trial.places) {
+      PlotBox box = trial.box(place);
+      box.width_m += 0.6;
+      if (place.position_m != low.position_m && box.contains({x, y})) return 0.8;
+    }
+    return trial.box(low).contains({x, y}) ? 0.12 : 0.0;
+  });
+  Layout layout = bands_of(bands, leaves, {{low.row, low.column}, {none.row, none.column}});
+  layout.c_touching = 30;
+  expect_places(layout_of(fit_lattice(layout, {}, &leaves)), trial);
+}
+
 // Leaves are everywhere, so plots rise above nothing: a missing plot stays missing.
 TEST(Lattice, HasNoLowPlotsWhereLeavesCloseTheGaps) {
   const TrialLayout bands = known_trial({0, 0, 0});

@@ -7,6 +7,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include "core/contains.h"
 #include "estimator/plots/known_trial.h"
 #include "plots/lattice/lattice.h"
 
@@ -34,7 +35,7 @@ std::vector<int> marked_columns(const TrialLayout& trial, const std::vector<bool
   for (std::size_t i = 0; i < marked.size(); ++i)
     if (marked[i] && trial.places[i].row == 1) columns.push_back(trial.places[i].column);
   for (std::size_t i = 0; i < marked.size(); ++i)
-    EXPECT_EQ(marked[i], std::ranges::count(columns, trial.places[i].column) > 0);
+    EXPECT_EQ(marked[i], contains(columns, trial.places[i].column));
   return columns;
 }
 

@@ -228,6 +228,29 @@ TEST(FindPlots, FindsTouchingPlotsOfFewRows) {
   }
 }
 
+// Plots of every height that touch, in rows with offsets of their own: the lowest has a fifth of
+// the height of the tallest, and is thin. Leaves hang over what is beside a tall one, and over the
+// place of a plot that is missing.
+TEST(FindPlots, FindsDwarfsThatTouchGiants) {
+  const Trial trial{
+      .columns = 8, .gap_m = 0, .row_gap_m = 0.6, .offsets_m = {0, 0.6, -0.5}, .missing = 11};
+  const std::vector<PlotBox> boxes = trial.boxes();
+  std::vector<Eigen::Vector3f> points = cloud_over({}, everywhere, 14, 14);
+  for (std::size_t rank = 0; rank < boxes.size(); ++rank) {  // the tallest hang over all others
+    PlotBox box = boxes[7 * rank % boxes.size()];
+    const double tall = static_cast<double>(rank + 1) / static_cast<double>(boxes.size());
+    box.width_m += 0.4 * tall;
+    box.length_m += 0.4 * tall;
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      RandomStream random(13, random_purpose("test/leaves"), i);
+      if (box.contains(points[i].head<2>().cast<double>()) && random.uniform() < 0.4 + 0.4 * tall)
+        points[i].z() = static_cast<float>((0.2 + 0.8 * tall) * random.uniform(0.6, 1));
+    }
+  }
+  for (const Hints& hints : {kSides, Hints{.width_m = 1.5}})
+    expect_those(boxes, find_plots(points, 0.02, hints, 2), 0.85);
+}
+
 // Plots with narrow gaps, 0.2 m beside the same crop without plots: on squares of a metre the crop
 // goes on through them.
 TEST(FindPlots, FindsPlotsWithNarrowGapsBesideACropWithoutPlots) {
