@@ -81,7 +81,8 @@ TEST(PatchScatter, IsNotKnownWhereNoiseMayHideLeaves) {
   const TrialLayout trial = known_trial({0, 0});
   const CanopyRaster raster = canopy_of(trial);
   const auto points = tops_over(trial, 0, 0.05, 2000);
-  EXPECT_TRUE(std::isnan(roughness(lattice_of(trial, raster), points, 0.03).in_patches));
+  EXPECT_TRUE(std::isnan(roughness(lattice_of(trial, raster), points, 0.012).in_patches));
+  EXPECT_FALSE(std::isnan(roughness(lattice_of(trial, raster), points, 0.010).in_patches));
 }
 
 }  // namespace
