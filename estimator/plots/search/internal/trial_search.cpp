@@ -166,13 +166,18 @@ std::size_t plots_beside_others(const FieldSigns& signs, double explained) {
   return explained > kLeastOfAll && may_be_beside_others(signs) ? signs.plots : 0;
 }
 
-Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
-                LineModel model, int threads) {
-  const Frame frame = frame_of(axes);
+// By height; leaves from a quarter of the crop's height on; every leaf.
+std::array<CanopyScale, 3> scales_of(const FieldCanopy& field, double noise_m) {
   const double low_m =
       std::max(std::min(kLeastLeaves_m, kMostOfTop * field.scale().high_m), 4 * noise_m);
   const double leaves_m = std::max(low_m, kLeavesFrom * field.scale().high_m);
-  const std::array scales = {field.scale(), leaves_above(leaves_m), leaves_above(low_m)};
+  return {field.scale(), leaves_above(leaves_m), leaves_above(low_m)};
+}
+
+Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m, const Hints& hints,
+                LineModel model, int threads) {
+  const Frame frame = frame_of(axes);
+  const std::array scales = scales_of(field, noise_m);
   const std::vector<CanopyRaster> rasters = rasterise(field, frame, kCell_m, scales, threads);
   const CanopyRaster &canopy = rasters[0], &low_leaves = rasters[2];
   // Beside a giant a dwarf that touches it is as good as bare, unless every leaf counts.
