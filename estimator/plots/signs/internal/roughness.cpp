@@ -21,8 +21,8 @@ constexpr double kMargin =
 constexpr double kTopQuantile = 0.95;
 constexpr double kUpper = 0.5;          // of the height
 constexpr double kNoiseOfHeight = 0.1;  // above which roughness and noise are not told apart
-// Leaves scatter by 0.0097 of the height and more about a plane of this size (20 fields of maize;
-// in most crops by more): at this noise still by 1.4 sigmas together with it.
+// Leaves scatter by 0.0097 of the height and more about a plane of this size (17 fields of maize;
+// 0.006 where giants stand beside dwarfs; in most crops more): at this noise by 1.4 sigmas with it.
 constexpr double kNoiseHidesLeaves = 0.01;
 constexpr double kLeastPatch_m = 0.2, kMostPatch_m = 0.35;
 constexpr double kReturnsOfPatch = 16;     // of the usual patch
