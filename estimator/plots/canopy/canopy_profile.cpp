@@ -135,22 +135,6 @@ ProfileSums::ProfileSums(const CanopyProfile& profile) : up_to_(1) {
   }
 }
 
-ProfileSums::Sums ProfileSums::over(int begin, int end) const {
-  const Sums &low = up_to_[static_cast<std::size_t>(begin)],
-             &high = up_to_[static_cast<std::size_t>(end)];
-  return {.weight = high.weight - low.weight,
-          .y = high.y - low.y,
-          .yy = high.yy - low.yy,
-          .x = high.x - low.x,
-          .xx = high.xx - low.xx,
-          .xy = high.xy - low.xy};
-}
-
-double ProfileSums::mean(int begin, int end) const {
-  const Sums sums = over(begin, end);
-  return sums.weight > 0 ? sums.y / sums.weight : 0;
-}
-
 double ProfileSums::highest_mean(int width) const {
   double most = 0;
   for (int i = 0; i + width <= cells(); ++i) most = std::max(most, mean(i, i + width));
@@ -160,25 +144,6 @@ double ProfileSums::highest_mean(int width) const {
 double ProfileSums::centroid(int begin, int end) const {
   const Sums sums = over(begin, end);
   return sums.y > 0 ? sums.xy / sums.y : 0.5 * (begin + end);
-}
-
-double ProfileSums::squares(int begin, int end, double level) const {
-  const Sums sums = over(begin, end);
-  return sums.yy - 2 * level * sums.y + level * level * sums.weight;
-}
-
-double ProfileSums::squares(int begin, int end, double from, double to) const {
-  if (begin >= end) return 0;
-  const Sums sums = over(begin, end);
-  const double slope = (to - from) / (end - begin), start = from - slope * begin;
-  return squares(begin, end, start) - 2 * slope * sums.xy + 2 * start * slope * sums.x +
-         slope * slope * sums.xx;
-}
-
-ProfileSums::Stretch ProfileSums::even(int begin, int end) const {
-  const Sums sums = over(begin, end);
-  const double level = sums.weight > 0 ? sums.y / sums.weight : 0;
-  return {level, sums.yy - level * sums.y};
 }
 
 void ProfileSums::free_ends(double piece_price) {

@@ -124,25 +124,6 @@ Eigen::Vector2d Frame::to_world(const Eigen::Vector2d& ab) const {
   return origin + ab.x() * a_axis + ab.y() * b_axis;
 }
 
-CanopyRaster::CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
-                           std::span<const std::uint32_t> cover)
-    : frame_(frame), cell_m_(cell_m), a_cells_(a_cells), b_cells_(b_cells) {
-  const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
-  seen_.assign((static_cast<std::size_t>(a_cells_) + 1) * stride, 0);
-  covered_.assign(seen_.size(), 0);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(a_cells_); ++i) {
-    std::uint32_t seen = 0, covered = 0;
-    for (std::size_t j = 0; j + 1 < stride; ++j) {
-      const std::uint32_t cell = cover[i * (stride - 1) + j];
-      seen += cell != kUnseen ? 1 : 0;
-      covered += cell != kUnseen ? cell : 0;
-      const std::size_t at = (i + 1) * stride + j + 1;
-      seen_[at] = seen_[at - stride] + seen;
-      covered_[at] = covered_[at - stride] + covered;
-    }
-  }
-}
-
 std::vector<std::uint64_t> CanopyRaster::squares() const {
   const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
   std::vector<std::uint64_t> squares(covered_.size(), 0);
@@ -172,18 +153,17 @@ double CanopyRaster::cover(int a0, int a1, int b0, int b1) const {
 std::vector<CanopyRaster> rasterise(const FieldCanopy& field, const Frame& axes, double cell_m,
                                     std::span<const CanopyScale> scales, int threads) {
   const Eigen::Matrix2d ab_from_world = axes.ab_from_world();
-  std::vector<CanopyRaster> rasters(scales.size(), CanopyRaster(axes, cell_m, 0, 0, {}));
+  std::vector<CanopyRaster> rasters(
+      scales.size(), CanopyRaster(axes, cell_m, 0, 0, std::span<const std::uint32_t>()));
   tbb::task_arena(threads).execute([&] {
     const Eigen::AlignedBox2d bounds = bounds_of(field, ab_from_world);
     if (bounds.isEmpty()) return;
     const RasterGrid grid(ab_from_world, bounds, cell_m);
     const auto returns = returns_by_cell(field, grid, scales);
     tbb::parallel_for(std::size_t{0}, scales.size(), [&](std::size_t k) {
-      std::vector<std::uint32_t> cover(grid.cells());
-      for (std::size_t cell = 0; cell < cover.size(); ++cell)
-        cover[cell] = cover_of(returns[cell * scales.size() + k]);
-      rasters[k] = CanopyRaster(grid.frame_along(axes), grid.cell_m(), grid.a_cells(),
-                                grid.b_cells(), cover);
+      rasters[k] = CanopyRaster(
+          grid.frame_along(axes), grid.cell_m(), grid.a_cells(), grid.b_cells(),
+          [&](std::size_t cell) { return cover_of(returns[cell * scales.size() + k]); });
     });
   });
   return rasters;

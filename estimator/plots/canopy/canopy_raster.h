@@ -4,6 +4,8 @@
 // Where a field is covered by canopy, on a grid along two axes.
 
 #include <algorithm>
+#include <concepts>
+#include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -34,7 +36,12 @@ class CanopyRaster {
  public:
   // `cover` is that of cell (i, j) at i * b_cells + j: 0 to kFullCover, or kUnseen.
   CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
-               std::span<const std::uint32_t> cover);
+               std::span<const std::uint32_t> cover)
+      : CanopyRaster(frame, cell_m, a_cells, b_cells,
+                     [&](std::size_t cell) { return cover[cell]; }) {}
+  // The same of a function of the cell's number.
+  template <std::invocable<std::size_t> Cover>
+  CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells, const Cover& cover);
 
   const Frame& frame() const { return frame_; }
   double cell_m() const { return cell_m_; }
@@ -68,6 +75,26 @@ class CanopyRaster {
   int a_cells_, b_cells_;
   std::vector<std::uint32_t> seen_, covered_;  // summed-area tables, (a_cells + 1) x (b_cells + 1)
 };
+
+template <std::invocable<std::size_t> Cover>
+CanopyRaster::CanopyRaster(const Frame& frame, double cell_m, int a_cells, int b_cells,
+                           const Cover& cover)
+    : frame_(frame), cell_m_(cell_m), a_cells_(a_cells), b_cells_(b_cells) {
+  const std::size_t stride = static_cast<std::size_t>(b_cells_) + 1;
+  seen_.assign((static_cast<std::size_t>(a_cells_) + 1) * stride, 0);
+  covered_.assign(seen_.size(), 0);
+  for (std::size_t i = 0; i < static_cast<std::size_t>(a_cells_); ++i) {
+    std::uint32_t seen = 0, covered = 0;
+    for (std::size_t j = 0; j + 1 < stride; ++j) {
+      const std::uint32_t cell = cover(i * (stride - 1) + j);
+      seen += cell != kUnseen ? 1 : 0;
+      covered += cell != kUnseen ? cell : 0;
+      const std::size_t at = (i + 1) * stride + j + 1;
+      seen_[at] = seen_[at - stride] + seen;
+      covered_[at] = covered_[at - stride] + covered;
+    }
+  }
+}
 
 // The field's canopy along `axes`, with cells without returns all around, so that a plot may end
 // where the cloud does. The origin is moved to the lowest a and b; one raster for each scale.

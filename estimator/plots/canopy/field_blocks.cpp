@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <functional>
 #include <limits>
 #include <numeric>
 #include <utility>
@@ -225,9 +226,17 @@ std::vector<std::vector<bool>> FieldBlocks::closed() const {
   for (const BlockFacts& block : facts_)
     if (block.stands_out) covers.push_back(block.cover);
   const double well_covered = quantile(std::move(covers), 0.75);
-  const std::vector<bool> squares = large_patches(in_closed_squares(well_covered));
-  if (std::ranges::count(squares, true) == 0) return {};
-  return {with_beside(squares), with_beside(followed_on(squares, kClosedLeast * well_covered))};
+  const std::vector<std::vector<std::size_t>> patches =
+      large_patches(in_closed_squares(well_covered));
+  std::vector<std::vector<bool>> closed;
+  const auto add = [&](std::span<const std::vector<std::size_t>> of_another_crop) {
+    const std::vector<bool> squares = marked_in(of_another_crop);
+    closed.push_back(with_beside(squares));
+    closed.push_back(with_beside(followed_on(squares, kClosedLeast * well_covered)));
+  };
+  if (!patches.empty()) add(patches);
+  if (patches.size() > 1) add({&patches.front(), 1});
+  return closed;
 }
 
 // Adds to the blocks found those that may be and lie beside them, beside these, and so on, and
@@ -244,17 +253,27 @@ void FieldBlocks::spread(std::vector<std::size_t>& found, std::vector<bool>& mar
   }
 }
 
-std::vector<bool> FieldBlocks::large_patches(const std::vector<bool>& closed) const {
-  std::vector<bool> marked(closed.size()), large(closed.size());
+std::vector<std::vector<std::size_t>> FieldBlocks::large_patches(
+    const std::vector<bool>& closed) const {
+  std::vector<bool> marked(closed.size());
+  std::vector<std::vector<std::size_t>> large;
   for (std::size_t number = 0; number < closed.size(); ++number) {
     if (!closed[number] || marked[number]) continue;
     std::vector<std::size_t> patch = {number};
     marked[number] = true;
     spread(patch, marked, [&](std::size_t near) { return closed[near]; });
-    if (patch.size() < kLeastClosed_blocks) continue;
-    for (const std::size_t of_patch : patch) large[of_patch] = true;
+    if (patch.size() >= kLeastClosed_blocks) large.push_back(std::move(patch));
   }
+  std::ranges::stable_sort(large, std::greater(), &std::vector<std::size_t>::size);
   return large;
+}
+
+std::vector<bool> FieldBlocks::marked_in(
+    std::span<const std::vector<std::size_t>> patches) const {
+  std::vector<bool> marked(facts_.size());
+  for (const std::vector<std::size_t>& patch : patches)
+    for (const std::size_t number : patch) marked[number] = true;
+  return marked;
 }
 
 std::vector<bool> FieldBlocks::followed_on(std::vector<bool> closed, double least_cover) const {

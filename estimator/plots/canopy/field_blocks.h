@@ -58,7 +58,9 @@ class FieldBlocks {
   std::vector<double> crop_tops_m() const;
   // Which blocks are covered all over, or lie beside such: a crop that is sown without gaps, as
   // around many trials, or plots whose gaps leaves close. Squares of 4 m first, 64 m2 of them
-  // together, then these and what follows on from them. Empty where there are no such squares.
+  // together, then these and what follows on from them. Where several such patches lie apart, the
+  // same of the largest one alone: the others may be such plots. Empty where there are no such
+  // squares.
   std::vector<std::vector<bool>> closed() const;
   // On how many square metres of these blocks, something stands.
   double covered_m2(const std::vector<bool>& blocks) const;
@@ -82,7 +84,8 @@ class FieldBlocks {
   template <typename MayBe>
   void spread(std::vector<std::size_t>& found, std::vector<bool>& marked,
               const MayBe& may_be) const;
-  std::vector<bool> large_patches(const std::vector<bool>& closed) const;
+  std::vector<std::vector<std::size_t>> large_patches(const std::vector<bool>& closed) const;
+  std::vector<bool> marked_in(std::span<const std::vector<std::size_t>> patches) const;
   std::vector<bool> followed_on(std::vector<bool> closed, double least_cover) const;
   std::vector<bool> with_beside(const std::vector<bool>& closed) const;
 

@@ -112,23 +112,32 @@ ProfileSums::Stretch gap_between(std::span<const ProfileSums> profiles, const Ba
   return sum;
 }
 
-// The cost of a gap; infinite where the gap is not lower than both bands beside it.
+// Whether a gap is not lower than both bands beside it.
+bool is_filled(double level, const Start* from, const Start* to) {
+  const double lower =
+      std::min(from != nullptr ? from->canopy : kNever, to != nullptr ? to->canopy : kNever);
+  return level > kMostGap * lower;
+}
+
+// The cost of a gap; infinite where it is filled.
 double gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape, const Start* from,
                 const Start* to) {
   const ProfileSums::Stretch gap = gap_between(profiles, shape, from, to);
-  const double lower =
-      std::min(from != nullptr ? from->canopy : kNever, to != nullptr ? to->canopy : kNever);
-  return gap.level > kMostGap * lower ? kNever : gap.misfit;
+  return is_filled(gap.level, from, to) ? kNever : gap.misfit;
 }
 
-// What the gap costs at least, as does any that begins earlier: the squares about the mean of more
-// cells are no fewer.
-double least_gap_cost(std::span<const ProfileSums> profiles, const BandShape& shape,
-                      const Start& from, const Start& to) {
-  double misfit = 0;
-  for (const ProfileSums& sums : profiles)
-    misfit += sums.even(from.begin + shape.size + shape.blur, to.begin - shape.blur).misfit;
-  return misfit;
+// A gap without its edges. Those only add to what it costs, as does all that lies before it: the
+// squares about the mean of more cells are no fewer.
+ProfileSums::Stretch within_gap(std::span<const ProfileSums> profiles, const BandShape& shape,
+                                const Start& from, const Start& to) {
+  ProfileSums::Stretch sum;
+  for (const ProfileSums& sums : profiles) {
+    const ProfileSums::Stretch gap =
+        sums.even(from.begin + shape.size + shape.blur, to.begin - shape.blur);
+    sum.level += gap.level;
+    sum.misfit += gap.misfit;
+  }
+  return sum;
 }
 
 // Lets a start follow the one of `others`, which all end before it, with which the bands up to it
@@ -138,8 +147,10 @@ void follow_cheapest(std::span<const ProfileSums> profiles, const BandShape& sha
   start.cost = gap_cost(profiles, shape, nullptr, &start);
   for (std::size_t k = others.size(); k-- > 0;) {
     const Start& other = others[k];
-    if (other.least + least_gap_cost(profiles, shape, other, start) > start.cost) return;
-    if (other.cost > start.cost) continue;
+    const ProfileSums::Stretch within = within_gap(profiles, shape, other, start);
+    if (other.least + within.misfit > start.cost) return;
+    if (other.cost + within.misfit > start.cost || is_filled(within.level, &other, &start))
+      continue;
     const double cost = other.cost + gap_cost(profiles, shape, &other, &start);
     if (cost > start.cost) continue;
     start.cost = cost;

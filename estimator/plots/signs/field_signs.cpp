@@ -266,4 +266,9 @@ bool may_be_beside_others(FieldSigns signs) {
 
 double field_confidence(const FieldSigns& signs) { return clearness_of(signs).product(); }
 
+double confidence_beside_others(FieldSigns signs) {
+  signs.held_share = 1;
+  return field_confidence(signs);
+}
+
 }  // namespace plotscan::plots

@@ -35,5 +35,7 @@ std::optional<SownRows> sown_rows_along(const Lattice& lattice);
 
 // 0 to 1: how clearly the field is one of plots.
 double field_confidence(const FieldSigns& signs);
+// The same of plots of a trial beside others.
+double confidence_beside_others(FieldSigns signs);
 
 }  // namespace plotscan::plots

@@ -3,7 +3,6 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <span>
 #include <vector>
 
 #include <Eigen/Cholesky>
@@ -25,7 +24,7 @@ constexpr double kClearly = 0.5;  // of the squares that an even canopy leaves: 
 constexpr std::array kBlurs_m = {0.04, 0.06, 0.08, 0.12, 0.16, 0.2, 0.25, 0.3, 0.4};
 constexpr double kBroader = 1.3;
 
-// Residual squares of a profile after a least-squares fit of curves with non-negative weights.
+// Residual squares of a profile after a least-squares fit of up to three curves.
 class Curves {
  public:
   Curves(const Eigen::MatrixXd& curves, const Eigen::VectorXd& depth)
@@ -33,17 +32,13 @@ class Curves {
         with_depth_(curves.transpose() * depth),
         squares_(depth.squaredNorm()) {}
 
-  double squares_left(std::span<const int> chosen) const {
-    double least = squares_;
-    for (unsigned subset = 1; subset < (1U << chosen.size()); ++subset) {
-      std::vector<int> used;
-      for (std::size_t i = 0; i < chosen.size(); ++i)
-        if ((subset >> i & 1U) != 0) used.push_back(chosen[i]);
-      const Eigen::VectorXd right = with_depth_(used);
-      const Eigen::VectorXd weights = products_(used, used).ldlt().solve(right);
-      if (weights.minCoeff() >= 0) least = std::min(least, squares_ - weights.dot(right));
-    }
-    return std::max(0.0, least);
+  // Of these curves together; all of the squares where one of them would have a weight below 0.
+  template <std::size_t count>
+  double squares_left(const std::array<int, count>& used) const {
+    const Eigen::Vector<double, count> right = with_depth_(used);
+    const Eigen::Matrix<double, count, count> products = products_(used, used);
+    const Eigen::Vector<double, count> weights = products.ldlt().solve(right);
+    return weights.minCoeff() >= 0 ? std::max(0.0, squares_ - weights.dot(right)) : squares_;
   }
 
  private:
@@ -70,22 +65,25 @@ Eigen::VectorXd depth_of(const DepthProfile& profile) {
 }
 
 // Residual squares of a canopy; `canopy(blur_m)` is its shape for leaves of one spread. The best
-// two spreads together are fitted, over a constant level.
+// spread or the best two together are fitted, with or without a constant level.
 template <class Canopy>
 double squares_of(const DepthProfile& profile, const Neighbours& near, const Canopy& canopy) {
-  constexpr auto kBlurs = static_cast<int>(kBlurs_m.size());
+  constexpr auto kBlurs = static_cast<int>(kBlurs_m.size()), kLevel = kBlurs;
   Eigen::MatrixXd curves(static_cast<Eigen::Index>(profile.x_m.size()), kBlurs + 1);
   for (int blur = 0; blur < kBlurs; ++blur)
     curves.col(blur) = curve_of(profile, near, canopy(kBlurs_m[static_cast<std::size_t>(blur)]));
-  curves.col(kBlurs).setOnes();
+  curves.col(kLevel).setOnes();
   const Curves fit(curves, depth_of(profile));
-  double least = std::numeric_limits<double>::infinity();
+  double least = fit.squares_left(std::array{kLevel});
   for (int near_row = 0; near_row < kBlurs; ++near_row) {
+    least = std::min({least, fit.squares_left(std::array{near_row}),
+                      fit.squares_left(std::array{near_row, kLevel})});
     for (int farther = near_row + 1; farther < kBlurs; ++farther) {
       if (kBlurs_m[static_cast<std::size_t>(farther)] <
           kBroader * kBlurs_m[static_cast<std::size_t>(near_row)])
         continue;
-      least = std::min(least, fit.squares_left(std::array{near_row, farther, kBlurs}));
+      least = std::min({least, fit.squares_left(std::array{near_row, farther}),
+                        fit.squares_left(std::array{near_row, farther, kLevel})});
     }
   }
   return least;

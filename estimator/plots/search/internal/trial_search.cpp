@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -215,17 +216,6 @@ Look look_along(const FieldAxes& axes, const FieldCanopy& field, double noise_m,
   return look;
 }
 
-// One look along each pair of axes.
-std::vector<Look> looks_at(const FieldCanopy& field, double noise_m, const Hints& hints,
-                           LineModel model, int threads) {
-  const CanopyRaster coarse =
-      rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
-  std::vector<Look> looks;
-  for (const FieldAxes& axes : find_axes(coarse, hints.heading_rad, threads))
-    looks.push_back(look_along(axes, field, noise_m, hints, model, threads));
-  return looks;
-}
-
 // Of looks at the same canopy.
 Look clearest(const std::vector<Look>& looks) {
   if (looks.empty()) return {no_plots(kNoCanopy)};
@@ -297,15 +287,30 @@ class TrialSearch {
   void look(const Crop& crop, LineModel model) {
     const auto& [points, blocks, noise_m, hints, threads, ground_error] = scanned_;
     const FieldCanopy field(points, blocks, crop, threads, ground_error);
-    const std::vector<Look> looks = looks_at(field, noise_m, hints, model, threads);
+    std::vector<Look> looks;
+    for (const FieldAxes& axes : axes_in(field, crop))
+      looks.push_back(look_along(axes, field, noise_m, hints, model, threads));
     looks_.insert(looks_.end(), looks.begin(), looks.end());
     Look look = clearest(looks);
     look.field.others_m2 = blocks.covered_m2(crop.others);
     if (!best_ || shows_more(look, *best_)) best_ = std::move(look);
   }
 
+  // A canopy's axes, the same whatever is assumed of what stands beside the plots.
+  const std::vector<FieldAxes>& axes_in(const FieldCanopy& field, const Crop& crop) {
+    const auto [known, is_new] = axes_.try_emplace({crop.top_m, crop.others});
+    if (is_new) {
+      const int threads = scanned_.threads;
+      const CanopyRaster coarse =
+          rasterise(field, {}, kAxisCell_m, {&field.scale(), 1}, threads).front();
+      known->second = find_axes(coarse, scanned_.hints.heading_rad, threads);
+    }
+    return known->second;
+  }
+
   const ScannedField& scanned_;
   std::vector<double> tops_m_;
+  std::map<std::pair<double, std::vector<bool>>, std::vector<FieldAxes>> axes_;  // by crop
   std::vector<Look> looks_;
   std::optional<Look> best_;
 };

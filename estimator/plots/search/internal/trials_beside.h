@@ -23,7 +23,8 @@ struct SeenTrial {
 double expected_plots(const std::vector<SeenTrial>& trials);
 
 // The trials that explain the field best, of those that the looks may be the first of. Each is a
-// field of plots with all others taken away. None where there are not two.
+// field of plots with all others taken away. None where there are not two, or where no look shows
+// one clearly: bushes and sheets have many pieces that might be one.
 std::vector<SeenTrial> trials_beside(const ScannedField& field, const Looks& looks);
 
 }  // namespace plotscan::plots

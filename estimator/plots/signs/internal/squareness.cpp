@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
 #include <limits>
 #include <vector>
 
@@ -51,34 +53,88 @@ MeanPlot mean_plot(const Lattice& lattice, double around_m) {
   return plot;
 }
 
-// Residual squares about one level inside an outline and one outside, least over the outline's
-// size.
+// An outline's sides over those of the mean plot.
+struct Outline {
+  double r_scale = 1, c_scale = 1;
+};
+
+// Where the middle of a cell lies on a side, whose ends are -1 and 1.
+double place_on_side(Eigen::Index cell, Eigen::Index cells, double scale) {
+  return (2 * (static_cast<double>(cell) + 0.5) / static_cast<double>(cells) - 1) / scale;
+}
+
+// Residual squares about one level inside an outline and one outside.
+template <class Inside>
+double squares_about_levels(const MeanPlot& plot, const Outline& outline, const Inside& inside) {
+  double n[2] = {}, sum[2] = {}, squares = 0;
+  for (Eigen::Index i = 0; i < plot.canopy.rows(); ++i) {
+    const double y = place_on_side(i, plot.canopy.rows(), outline.r_scale);
+    for (Eigen::Index k = 0; k < plot.canopy.cols(); ++k) {
+      if (plot.seen(i, k) == 0) continue;
+      const double canopy = plot.canopy(i, k);
+      const int in = inside(place_on_side(k, plot.canopy.cols(), outline.c_scale), y) ? 1 : 0;
+      n[in] += 1;
+      sum[in] += canopy;
+      squares += canopy * canopy;
+    }
+  }
+  return squares - sum[0] * sum[0] / std::max(1.0, n[0]) - sum[1] * sum[1] / std::max(1.0, n[1]);
+}
+
+// A mean plot's sums over the first cells of each row.
+class RowSums {
+ public:
+  explicit RowSums(const MeanPlot& plot) {
+    canopy_.setZero(plot.canopy.rows(), plot.canopy.cols() + 1);
+    seen_ = canopy_;
+    for (Eigen::Index k = 0; k < plot.canopy.cols(); ++k) {
+      canopy_.col(k + 1) = canopy_.col(k) + plot.canopy.col(k);
+      seen_.col(k + 1) = seen_.col(k) + plot.seen.col(k);
+    }
+  }
+
+  // How much of the squares the two levels explain. The outline has no dents and its halves are
+  // alike: what is inside of a row is one stretch about the row's middle.
+  template <class Inside>
+  double explained(const Outline& outline, const Inside& inside) const {
+    std::vector<double> x;
+    for (Eigen::Index k = 0; k + 1 < canopy_.cols(); ++k)
+      x.push_back(place_on_side(k, canopy_.cols() - 1, outline.c_scale));
+    const auto middle = x.begin() + std::ssize(x) / 2;
+    double n = 0, sum = 0;
+    for (Eigen::Index i = 0; i < canopy_.rows(); ++i) {
+      const double y = place_on_side(i, canopy_.rows(), outline.r_scale);
+      const auto is_in = [&](double along) { return inside(along, y); };
+      const auto first = std::partition_point(x.begin(), middle, std::not_fn(is_in)) - x.begin();
+      const auto end = std::partition_point(middle, x.end(), is_in) - x.begin();
+      n += seen_(i, end) - seen_(i, first);
+      sum += canopy_(i, end) - canopy_(i, first);
+    }
+    const double beyond = canopy_.rightCols(1).sum() - sum;
+    const double n_beyond = seen_.rightCols(1).sum() - n;
+    return sum * sum / std::max(1.0, n) + beyond * beyond / std::max(1.0, n_beyond);
+  }
+
+ private:
+  Eigen::ArrayXXd canopy_, seen_;
+};
+
+// The least residual squares of outlines of all sizes.
 template <class Inside>
 double squares_of_outline(const MeanPlot& plot, const Inside& inside) {
-  const auto rows = static_cast<double>(plot.canopy.rows());
-  const auto columns = static_cast<double>(plot.canopy.cols());
   constexpr int kScales = 17;
   const auto scale_of = [](int step) { return 0.6 + 0.05 * step; };
-  double best = std::numeric_limits<double>::infinity();
-  for (int scale = 0; scale < kScales * kScales; ++scale) {
-    const double r_scale = scale_of(scale / kScales), c_scale = scale_of(scale % kScales);
-    double n[2] = {}, sum[2] = {}, squares = 0;
-    for (Eigen::Index i = 0; i < plot.canopy.rows(); ++i) {
-      const double y = (2 * (static_cast<double>(i) + 0.5) / rows - 1) / r_scale;
-      for (Eigen::Index k = 0; k < plot.canopy.cols(); ++k) {
-        if (plot.seen(i, k) == 0) continue;
-        const double x = (2 * (static_cast<double>(k) + 0.5) / columns - 1) / c_scale;
-        const double canopy = plot.canopy(i, k);
-        const int in = inside(x, y) ? 1 : 0;
-        n[in] += 1;
-        sum[in] += canopy;
-        squares += canopy * canopy;
-      }
-    }
-    best = std::min(best, squares - sum[0] * sum[0] / std::max(1.0, n[0]) -
-                              sum[1] * sum[1] / std::max(1.0, n[1]));
+  const RowSums sums(plot);
+  Outline best;
+  double most = -1;
+  for (int step = 0; step < kScales * kScales; ++step) {
+    const Outline outline{scale_of(step / kScales), scale_of(step % kScales)};
+    const double explained = sums.explained(outline, inside);
+    if (explained <= most) continue;
+    most = explained;
+    best = outline;
   }
-  return best;
+  return squares_about_levels(plot, best, inside);
 }
 
 // Residual squares of level + along(r) * across(c), all at least 0; each is fitted in turn.
@@ -109,12 +165,13 @@ double squares_of_rings(const MeanPlot& plot, double stretch) {
   const Eigen::Index rows = plot.canopy.rows(), columns = plot.canopy.cols();
   const auto rings = static_cast<std::size_t>((rows + columns) / 2);
   std::vector<double> count(rings + 1), sum(rings + 1), squares(rings + 1);
+  const double corner = std::hypot(1, stretch);
   for (Eigen::Index i = 0; i < rows; ++i) {
     const double y = stretch * (2 * (static_cast<double>(i) + 0.5) / static_cast<double>(rows) - 1);
     for (Eigen::Index k = 0; k < columns; ++k) {
       if (plot.seen(i, k) == 0) continue;
       const double x = 2 * (static_cast<double>(k) + 0.5) / static_cast<double>(columns) - 1;
-      const double part = std::hypot(x, y) / std::hypot(1, stretch);
+      const double part = std::hypot(x, y) / corner;
       const auto ring = static_cast<std::size_t>(part * static_cast<double>(rings));
       const double canopy = plot.canopy(i, k);
       count[ring] += 1;

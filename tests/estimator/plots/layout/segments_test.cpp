@@ -101,6 +101,26 @@ TEST(BestBands, AreTheBestOfAllThatThereAre) {
   }
 }
 
+// Bands of several heights, one of them next to ground that is half covered.
+TEST(BestBands, AreTheBestOfAllOnAnUnevenLine) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5}) {
+    const std::vector<int> truth = {3, 12, 25};
+    CanopyProfile profile = profile_with({}, 5, 34, seed);
+    for (int i = 0; i < 5; ++i) {
+      profile.mean[static_cast<std::size_t>(3 + i)] += 0.8;
+      profile.mean[static_cast<std::size_t>(12 + i)] += 0.5;
+      profile.mean[static_cast<std::size_t>(25 + i)] += 0.65;
+    }
+    for (std::size_t i = 17; i < 25; ++i) profile.mean[i] += 0.25;
+    const std::vector<ProfileSums> profiles = {ProfileSums(profile)};
+    const BandShape shape{.size = 5, .blur = 1};
+    const Segmentation found = best_bands(profiles, shape, 3, 4);
+    EXPECT_EQ(found.begins, truth) << seed;
+    EXPECT_NEAR(found.misfit + 4 * found.parameters, least_cost(profiles.front(), shape, 3, 4),
+                1e-6);
+  }
+}
+
 TEST(BestBands, AreSharedByAllProfiles) {
   const std::vector<int> truth = {6, 20};
   // The second band is missing on one of the lines.

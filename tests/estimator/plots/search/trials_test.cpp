@@ -10,6 +10,7 @@
 #include "estimator/plots/trial_cloud.h"
 #include "plots/search/find_trials.h"
 #include "plots/search/internal/trial_area.h"
+#include "plots/search/internal/trials_beside.h"
 
 // Several trials on one field.
 namespace plotscan::plots {
@@ -145,6 +146,24 @@ TEST(FindTrials, TakesNoHedgeWithThinPlacesForPlots) {
   const std::vector<PlotField> trials = find_trials(cloud_over(boxes, sown, 16, 14), 0.02, {}, 2);
   ASSERT_EQ(trials.size(), 1u);
   expect_those(plots, trials.front());
+}
+
+// Rectangles that are hardly better than ellipses, as pieces of bushes are.
+void make_unclear(Look& look) {
+  if (look.field.signs) look.field.signs->squareness = look.field.signs->straightness = 0.95;
+}
+
+TEST(TrialsBeside, AreSoughtOnlyWhereALookShowsOneClearly) {
+  const std::vector<Eigen::Vector3f> points = cloud_over(both());
+  const FieldBlocks blocks(points, 0.02, 2);
+  const Hints hints;
+  const GroundError ground_error;
+  const ScannedField field{points, blocks, 0.02, hints, 2, ground_error};
+  Looks looks = look_in_all_ways(field);
+  EXPECT_EQ(trials_beside(field, looks).size(), 2u);
+  make_unclear(looks.best);
+  for (Look& look : looks.at_all) make_unclear(look);
+  EXPECT_TRUE(trials_beside(field, looks).empty());
 }
 
 TEST(FindTrials, GivesTheSameForAnyOrderOfThePoints) {
