@@ -15,6 +15,8 @@ namespace plotscan::cloud {
 namespace {
 
 constexpr double kDenseShare = 0.25;
+constexpr double kLeastOfPoints = 0.5;  // in the field: a tripod's scan is dense at its stations
+constexpr double kThinner = 0.25;       // squares are taken then, again and again
 constexpr std::uint64_t kLeastTypical = 16;  // points: fewer tell a square's density badly
 constexpr int kCoarsest = 4;                 // squares of 2^4 m
 constexpr int kFirmNeighbours = 2;           // of 8
@@ -36,11 +38,10 @@ std::uint64_t typical_count(std::span<const TileCount> counts) {
 
 // The dense squares with enough dense neighbours: a single square of thin surroundings may be dense
 // by chance. All dense squares where the cloud is too small for that.
-std::vector<Tile> dense_squares(std::span<const TileCount> counts) {
-  const double threshold = kDenseShare * static_cast<double>(typical_count(counts));
+std::vector<Tile> dense_squares(std::span<const TileCount> counts, double least_count) {
   std::vector<Tile> dense;
   for (const TileCount& count : counts)
-    if (static_cast<double>(count.points) >= threshold) dense.push_back(count.tile);
+    if (static_cast<double>(count.points) >= least_count) dense.push_back(count.tile);
   const auto is_dense = [&](Tile tile) { return std::ranges::binary_search(dense, tile); };
   std::vector<Tile> firm = those_of(dense, [&](Tile tile) {
     int neighbours = -1;  // itself
@@ -72,6 +73,34 @@ std::vector<Tile> largest_group(const std::vector<Tile>& squares) {
     if (group.size() > largest.size()) largest = std::move(group);
   }
   return largest;
+}
+
+double points_in(std::vector<Tile> squares, std::span<const TileCount> counts) {
+  std::ranges::sort(squares);
+  double points = 0;
+  for (const TileCount& count : counts)
+    if (std::ranges::binary_search(squares, count.tile))
+      points += static_cast<double>(count.points);
+  return points;
+}
+
+// The largest group of dense squares; of thinner ones where it has less than half of the points and
+// a group of those has half.
+std::vector<Tile> field_squares(std::span<const TileCount> counts) {
+  double all = 0;
+  for (const TileCount& count : counts) all += static_cast<double>(count.points);
+  const auto is_field = [&](const std::vector<Tile>& squares) {
+    return points_in(squares, counts) >= kLeastOfPoints * all;
+  };
+  double least_count = kDenseShare * static_cast<double>(typical_count(counts));
+  std::vector<Tile> dense = largest_group(dense_squares(counts, least_count));
+  if (is_field(dense)) return dense;
+  while (least_count > 1) {
+    least_count *= kThinner;
+    std::vector<Tile> thinner = largest_group(dense_squares(counts, least_count));
+    if (is_field(thinner)) return thinner;
+  }
+  return dense;
 }
 
 }  // namespace
@@ -106,7 +135,7 @@ FieldHull find_field(std::span<const TileCount> counts) {
     squares = coarsened(squares);
   // Each square's opposite corner tiles, a square further out.
   std::vector<Tile> tiles;
-  for (const Tile square : largest_group(dense_squares(squares))) {
+  for (const Tile square : field_squares(squares)) {
     const auto corner = [bits](std::int32_t index, int by) { return (index + by) * (1 << bits); };
     for (const int x : {corner(square.x, -1), corner(square.x, 2) - 1})
       for (const int y : {corner(square.y, -1), corner(square.y, 2) - 1}) tiles.push_back({x, y});

@@ -103,6 +103,25 @@ TEST(FieldHull, HoldsStripsWithTheGapsBetweenThem) {
   expect_within(field.bounds(), {-25, -9.5, 25, 10}, 1.6);
 }
 
+// A tripod's scan is a hundred times as dense at its four stations as between them.
+TEST(FieldHull, HoldsAScanThatIsDensestAtItsStations) {
+  Survey survey;
+  survey.over(60, {0, 0}, 40, 30);
+  for (const double x : {-20.0, 20.0})
+    for (const double y : {-15.0, 15.0}) survey.over(8000, {x, y}, 4, 3);
+  expect_within(survey.field().bounds(), {-22, -16.5, 22, 16.5}, 2);
+}
+
+// Two fields with nothing between them are no larger field.
+TEST(FieldHull, IsOneOfTwoFieldsThatNothingJoins) {
+  const FieldHull field = Survey()
+                              .over(100, {0, 0}, 30, 20)
+                              .over(100, {100, 0}, 29, 20)
+                              .over(90, {0, 99}, 29, 20)
+                              .field();
+  expect_within(field.bounds(), {-15, -10, 15, 10}, 2);
+}
+
 // A cloud that was cropped already, or that is one small plot, loses nothing at its edges.
 TEST(FieldHull, CutsNothingOffACroppedCloud) {
   for (const double shift_m : {0.0, 0.05, 0.5, 0.93}) {

@@ -111,6 +111,13 @@ void fill_between(std::vector<Place>& row) {
         place.full || (place.share >= kLeastBorderCover && clear.stand_beside_in_row(place));
 }
 
+// In a row of plots, giants close the gaps between them along one axis: the mean of both tells.
+void take_covered(std::vector<Place>& row) {
+  for (Place& place : row)
+    place.full =
+        place.full || (place.share >= kLeastBorderCover && place.contrast >= kLeastBorderContrast);
+}
+
 // The number of the first or the last row that has a plot.
 int outer_row(const std::vector<Place>& places, bool last) {
   const auto outwards = [&](const Place& place) {
@@ -135,7 +142,8 @@ std::vector<Place> row_beyond(const Lattice& lattice, const UsualPlot& usual, do
     row.push_back(beyond);
   }
   fill_between(row);
-  if (std::ranges::count_if(row, &Place::full) <= kFewOfLine * usual_plots) row.clear();
+  if (std::ranges::count_if(row, &Place::full) <= kFewOfLine * usual_plots) return {};
+  take_covered(row);
   return row;
 }
 

@@ -79,6 +79,20 @@ TEST(GoOnBeyond, TakesALodgedPlotBetweenTwoOthers) {
   EXPECT_EQ(plots_of(lattice), 15);
 }
 
+// The last plot of the row that follows is a giant, which closes the gaps beside it.
+TEST(GoOnBeyond, TakesAPlotThatClosesItsGapsInARowOfPlots) {
+  const TrialLayout trial = known_trial({0, 0, 0});
+  const double third_m = 3 + 2 * trial.row_pitch_m, last_m = 2 + 4 * trial.column_pitch_m;
+  const CanopyRaster raster = canopy_beside(trial, 3, [&](double x, double y) {
+    const bool giant = std::abs(x - third_m) < trial.length_m / 2 &&
+                       std::abs(y - last_m) < 0.75 * trial.column_pitch_m;
+    return giant ? 0.95 : 0.0;
+  });
+  Lattice lattice = lattice_of_first(trial, 2, raster);
+  go_on_beyond(lattice);
+  EXPECT_EQ(plots_of(lattice), 15);
+}
+
 TEST(GoOnBeyond, AddsNothingWhereBareGroundAHedgeOrAnotherCropFollows) {
   const TrialLayout trial = known_trial({0, 0, 0});
   const double third_m = 3 + 2 * trial.row_pitch_m;
