@@ -150,12 +150,17 @@ void add_estimate_arguments(CLI::App& command, EstimateArguments& arguments) {
 // Adds the options of both kinds of pictures.
 template <class Options>
 void add_view_options(CLI::App& command, Options& options) {
-  command.add_option("--width", options.width_px, "width of the picture (pixels)");
-  command.add_option("--height", options.height_px, "height of the picture (pixels)");
-  command.add_option("--azimuth", options.azimuth_deg,
-                     "where the camera stands, counter-clockwise from east (degrees)");
-  command.add_option("--elevation", options.elevation_deg,
-                     "of the camera over the horizon (degrees)");
+  command.add_option("--width", options.width_px, "width of the picture (pixels)")
+      ->type_name("INT in " + Options::kWidth_px.text());
+  command.add_option("--height", options.height_px, "height of the picture (pixels)")
+      ->type_name("INT in " + Options::kHeight_px.text());
+  command
+      .add_option("--azimuth", options.azimuth_deg,
+                  "where the camera stands, counter-clockwise from east (degrees)")
+      ->type_name("FLOAT in " + Options::kAzimuth_deg.text());
+  command
+      .add_option("--elevation", options.elevation_deg, "of the camera over the horizon (degrees)")
+      ->type_name("FLOAT in " + Options::kElevation_deg.text());
 }
 
 void declare_picture(Program& program, PictureArguments& arguments) {
@@ -172,7 +177,8 @@ void declare_picture(Program& program, PictureArguments& arguments) {
                   "estimate or farm folder, or GeoJSON: its boxes are drawn on the scan")
       ->needs(scan);
   add_view_options(picture, arguments.options);
-  picture.add_option("--margin", arguments.options.margin_m, "shown around the plots (metres)");
+  picture.add_option("--margin", arguments.options.margin_m, "shown around the plots (metres)")
+      ->type_name("FLOAT in " + view::PictureOptions::kMargin_m.text());
 }
 
 void declare_plants(Program& program, PlantsArguments& arguments) {
@@ -185,8 +191,10 @@ void declare_plants(Program& program, PlantsArguments& arguments) {
                   "names under the plants, separated by commas (default: the files' names)")
       ->delimiter(',')
       ->allow_extra_args(false);
-  plants.add_option("--columns", arguments.options.columns,
-                    "plants in a row (default: 0, as many as makes them largest)");
+  plants
+      .add_option("--columns", arguments.options.columns,
+                  "plants in a row (default: 0, as many as makes them largest)")
+      ->type_name("INT in " + view::PlantPictureOptions::kColumns.text());
   plants.add_option("--up", arguments.up, "axis that points up in the meshes")
       ->check(CLI::IsMember({"z", "y"}));
   add_view_options(plants, arguments.options);

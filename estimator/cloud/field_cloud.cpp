@@ -129,8 +129,8 @@ FieldCloud take_field(TileStore& store, const FieldOptions& options, const std::
                   .thinned = counts.thinned};
   field.origin = origin_of(tiles, field.area);
   TiledPoints points = points_of(std::move(tiles), field.origin, options.threads);
-  field.counts.outliers = drop_haze(points, {.threads = options.threads});
-  field.counts.outliers += drop_outliers(points, {.threads = options.threads});
+  field.counts.outliers = drop_haze(points, options.threads);
+  field.counts.outliers += drop_outliers(points, options.threads);
   field.points = std::move(points.points);
   if (options.area) crop(field);
   field.counts.kept = field.points.size();

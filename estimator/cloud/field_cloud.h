@@ -53,8 +53,8 @@ struct FieldCloud {
   std::vector<Eigen::Vector3f> ground_points = {};
 };
 
-// Streams a cloud once, in memory bounded by the area over which it lies
-// (tile_store.h). Throws InputError on a broken cloud, or when no point lies in the area.
+// Streams a cloud once, in memory bounded by the area over which it lies (tile_store.h). Throws
+// InputError on a broken cloud, or when no point lies in the area.
 FieldCloud read_field(const CloudFiles& cloud, const FieldOptions& options,
                       const ProgressReport& progress = {});
 

@@ -79,10 +79,10 @@ void write_estimate(const std::filesystem::path& folder, const Estimate& estimat
 // Reads an estimate folder's plots.geojson, or a GeoJSON file, Plotscan's or anyone's: heights are
 // its numeric properties named height_<name>_m or canopy_<name>_m; a plot's id is its feature's,
 // else its plot_number, else its place in the file. The method is the one that the folder's
-// manifest.json names, "" without a manifest. The ground's grids are not read. A file
-// in longitude and latitude is brought into `crs`, which is UTM's. Throws InputError as
-// estimated_map_of, read_plot_features and plots_of do, when no plot has a height, and when a file
-// that no method of ours wrote has no plot.
+// manifest.json names, "" without a manifest. The ground's grids are not read. A file in longitude
+// and latitude is brought into `crs`, which is UTM's. Throws InputError as estimated_map_of,
+// read_plot_features and plots_of do, when no plot has a height, and when a file that no method of
+// ours wrote has no plot.
 Estimate read_estimate(const std::filesystem::path& path, const std::string& crs = "");
 
 // The attributes of a feature in the user's map, to be written back (PlotEstimate::attributes): all

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "core/contains.h"
 #include "core/error.h"
 #include "core/list_of.h"
 #include "core/statistics.h"
@@ -107,9 +108,7 @@ std::vector<double> Calibration::noise() const {
 }
 
 Calibration Calibration::without(std::span<const std::size_t> farms_left_out) const {
-  return with_farms(*this, [&](std::size_t i) {
-    return std::ranges::find(farms_left_out, i) == farms_left_out.end();
-  });
+  return with_farms(*this, [&](std::size_t i) { return !contains(farms_left_out, i); });
 }
 
 Calibration Calibration::of_crop(const std::string& crop) const {

@@ -26,18 +26,11 @@ struct HeightProfile {
   double share_above(double height_m) const;
 };
 
-struct ProfileOptions {
-  double bin_m = 0.005;
-  // Returns wanted in a weighting cell on average: with few, a cell's weight rests on chance.
-  double returns_per_cell = 30;
-  double shortest_cell_m = 0.05;
-  double longest_cell_m = 0.5;
-};
-
-// The profile of the returns (x, y, height) in a box. Each cell of a grid over the box counts the
-// same however many returns it has, so that strips flown twice, or obliquely, do not count twice.
-// `margin_m` is room for noise beyond the lowest and the highest return.
+// The profile of the returns (x, y, height above the ground, metres) in a box, in bins of 5 mm.
+// Each cell of a grid over the box counts the same however many returns it has, so that strips
+// flown twice, or obliquely, do not count twice. `margin_m` is room for noise beyond the lowest and
+// the highest return.
 HeightProfile height_profile(const PlotBox& box, std::span<const Eigen::Vector3f> points,
-                             double margin_m, const ProfileOptions& options = {});
+                             double margin_m);
 
 }  // namespace plotscan::heights

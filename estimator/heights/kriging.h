@@ -9,8 +9,9 @@
 namespace plotscan::heights {
 
 // Covariance of two places a and b, as a share of a value's variance:
-//   exp(-|a - b|^2 / 2) + linear^2 a.b + level^2
-// and `noise`, the standard deviation of a known value's own noise, in the same share.
+//   exp(-|a - b|^2 / 2) + linear^2 a.b + 10
+// (the 10 leaves the values' common level open), and `noise`, the standard deviation of a known
+// value's own noise, in the same share.
 struct Covariance {
   double linear = 0.7;
   double noise = 0.3;

@@ -50,7 +50,9 @@ struct FieldHeights {
   std::map<std::string, double> crops = {};  // how likely each is; empty without calibration
 };
 
-// Throws InputError on an unknown crop, where there are points and the calibration is used.
+// Boxes, points' x and y, and the surface are in one frame, metres. A plot without points has no
+// heights. Throws InputError on an unknown crop, where there are points and the calibration is
+// used.
 FieldHeights measure_heights(std::span<const PlotPoints> plots, const ground::Surface& surface,
                              const HeightOptions& options);
 

@@ -79,10 +79,17 @@ class CultivarFile {
     cultivar_.plot_source = source(plot, cultivar_.plot_source);
   }
 
+  void require_material(const YamlSection& section, const std::string& name) const {
+    if (cultivar_.colours.contains(name)) return;
+    const auto materials =
+        list_of(cultivar_.colours, [](const auto& named) { return named.first; });
+    section.fail(name, "is not a material of {}, which has {}", cultivar_.crop,
+                 joined(materials, ", "));
+  }
+
   void read_colours(const YamlSection& colours) {
     for (const std::string& name : colours.keys()) {
-      if (!complete_ && !cultivar_.colours.contains(name))
-        colours.fail(name, "is not a material of {}", cultivar_.crop);
+      if (!complete_) require_material(colours, name);
       const std::vector<double> rgb = colours.numbers(name, 3, {0, 1});
       cultivar_.colours[name] = Eigen::Vector3d(rgb[0], rgb[1], rgb[2]).cast<float>();
     }
@@ -90,8 +97,7 @@ class CultivarFile {
 
   void read_reflectance(const YamlSection& reflectance) {
     for (const std::string& name : reflectance.keys()) {
-      if (!cultivar_.colours.contains(name))
-        reflectance.fail(name, "is not a material of {}", cultivar_.crop);
+      require_material(reflectance, name);
       cultivar_.reflectance[name] = static_cast<float>(reflectance.number(name, {0, 1}));
     }
   }
@@ -131,7 +137,8 @@ class CultivarFile {
   Stage& stage_named(const std::string& name, const YamlSection& section, const char* key) {
     const auto stage = std::ranges::find(cultivar_.stages, name, &Stage::name);
     if (stage == cultivar_.stages.end())
-      section.fail(key, "\"{}\" is not a stage of {}", name, cultivar_.crop);
+      section.fail(key, "\"{}\" is not a stage of {}, which has {}", name, cultivar_.crop,
+                   joined(list_of(cultivar_.stages, &Stage::name), ", "));
     return *stage;
   }
 

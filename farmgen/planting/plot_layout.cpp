@@ -137,7 +137,6 @@ PlotGridDescription turned(PlotGridDescription grid, std::uint64_t seed, std::si
 
 std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
     const std::vector<farm::Plot>& plots, double share) {
-  const auto area_m2 = [](const PlotBox& box) { return box.width_m * box.length_m; };
   if (plots.empty()) return {};
   Eigen::AlignedBox2d centers;
   for (const farm::Plot& plot : plots) centers.extend(plot.box.center);
@@ -158,7 +157,7 @@ std::optional<std::pair<std::uint32_t, std::uint32_t>> overlapping_plots(
       if (apart[way] > reach_m) break;
       if (apart.norm() > reach_m) continue;
       const auto& [a, b] = std::tie(sorted[i]->box, sorted[j]->box);
-      if (intersection_area(a, b) <= share * std::min(area_m2(a), area_m2(b))) continue;
+      if (intersection_area(a, b) <= share * std::min(a.area_m2(), b.area_m2())) continue;
       return std::minmax({sorted[i]->id, sorted[j]->id});
     }
   }

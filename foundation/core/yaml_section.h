@@ -58,9 +58,8 @@ class YamlDocument {
 class YamlSection {
  public:
   // Parses the file, checks its optional key "format" (core/format_version.h), and applies the
-  // overrides
-  // ("dotted.path=value", list entries by index from 0; the value is YAML). The document must be a
-  // map.
+  // overrides ("dotted.path=value", list entries by index from 0; the value is YAML). The document
+  // must be a map.
   static YamlSection load(const std::filesystem::path& file,
                           const std::vector<std::string>& overrides);
   // The same from a text in memory; errors call it `file`.

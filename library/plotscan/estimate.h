@@ -72,7 +72,8 @@ struct EstimateFilesOptions {
   EstimateOptions field = {};      // without boxes of its own: `boxes` names their file
   std::string method = "lattice";  // or "dhami2020", which needs the setting `plots`
   std::optional<std::filesystem::path> boxes = {};  // a map, or an estimate's folder
-  std::optional<std::string> id = {};               // property of the map that holds the plots' ids
+  // Property of the map, or column of plot_names and measured, that holds the plots' ids.
+  std::optional<std::string> id = {};
   std::optional<std::string> units =
       {};  // of the coordinates, m, cm, mm, ft or us-ft; else the file's
   std::optional<std::string> crs = {};  // of the coordinates, "EPSG:<code>"; else the file's
@@ -96,8 +97,9 @@ struct EstimateFilesOptions {
 };
 
 // What `estimator run` does: reads the clouds as one (PCD, PLY, LAS, text, scan folders, folders of
-// tiles), writes the estimate folder (docs/estimate-format.md) and returns what it holds. Throws
-// BadInput on bad input, and leaves nothing behind then.
+// tiles, recordings), writes the estimate folder (docs/estimate-format.md) and returns what it
+// holds; of a field without plots too, whose estimate says why. Throws BadInput on bad input,
+// NothingMeasured when the points show no ground, and leaves nothing behind then.
 PLOTSCAN_API FieldEstimate estimate_files(const std::vector<std::filesystem::path>& clouds,
                                           const std::filesystem::path& folder,
                                           const EstimateFilesOptions& options = {},

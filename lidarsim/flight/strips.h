@@ -27,12 +27,12 @@ struct StripOptions {
   std::optional<double> heading_rad = {};
 };
 
-// The ends of the strips in the order of flight, world frame, metres, all at one height over the
-// ground, whose z is `ground_m`: strips
-// over the areas' bounding rectangle along the strips' heading, spacing_m apart, and as many that
-// no point of the rectangle is further than half a spacing from a strip (not so for
-// Pattern::single). A crosshatch starts its cross strips at the end nearer to the last strip.
-// `areas` must not be empty. Throws InputError when the path is longer than kMaxPath_m.
+// The ends of the strips in the order of flight, world frame, metres, all altitude_m over the
+// ground, whose z is `ground_m`. Strips lie over the areas' bounding rectangle along the strips'
+// heading, spacing_m apart: so many that no point of the rectangle is farther than half a spacing
+// from a strip (not so for Pattern::single). A crosshatch starts its cross strips at the end nearer
+// to the last strip. `areas` must not be empty. Throws InputError when the path is longer than
+// kMaxPath_m.
 std::vector<Eigen::Vector3d> strips_over(const std::vector<PlotBox>& areas, double ground_m,
                                          const StripOptions& options);
 

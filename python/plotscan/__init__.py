@@ -315,7 +315,7 @@ def estimate_files(
     crop_box: x0, y0, x1, y1: use only the points in here; else the densely scanned field is found.
     boxes: a map of the plots (GeoJSON, GeoPackage, shapefile, an estimate's folder): heights in its boxes, its ids and
         attributes kept.
-    id: property of the map, and column of `measured`, that holds the plots' ids.
+    id: property of the map, or column of `plot_names` and `measured`, that holds the plots' ids.
     units: of the coordinates, "m", "cm", "mm", "ft" or "us-ft"; else what the file states.
     crs: of the coordinates, "EPSG:32617", UTM in metres or degrees; else what the file states.
     trajectory, sensor, mount_rpy_deg: of a pcap: where the drone was (TUM or trajectory.csv), the sensor's name or
@@ -328,7 +328,8 @@ def estimate_files(
     csv: a table for breeding databases to write as well.
     settings: by the keys of `estimate_settings(method)`: plots=30, crop="maize". None is not set.
 
-    Raises BadInput on bad input; nothing is left behind then.
+    A field without plots has an estimate without plots; `why_no_plots` says why. Raises BadInput on bad input, NothingMeasured
+    when the points show no ground; nothing is left behind then.
     """
     options = _plotscan.EstimateFilesOptions()
     options.field = _field_options(crop_box, threads, settings)

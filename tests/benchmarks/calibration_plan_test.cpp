@@ -39,6 +39,7 @@ TEST(CalibrationPlan, HasFarmsThatCanBeMadeOfEveryLibrary) {
       {"libraries.yaml", "usual"}, {"libraries.yaml", "wide"}, {"maize_shapes.yaml", "shapes"}};
   for (const auto& [file, ranges] : kinds) {
     const std::vector<Library> libraries = read_libraries(kFolder / file, ranges);
+    ASSERT_FALSE(libraries.empty()) << file;
     std::set<std::string> names;
     for (std::size_t i = 0; i < libraries.size(); ++i) {
       EXPECT_TRUE(names.insert(libraries[i].name).second) << libraries[i].name;

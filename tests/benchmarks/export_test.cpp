@@ -93,7 +93,9 @@ TEST_F(Export, NoByteNamesCaseSeedFarmOrTruth) {
     for (const score::TruePlot& plot : score::read_truth(work / "farm"))
       for (const auto& [name, height_m] : plot.heights_m) secrets.push_back(json(height_m).dump());
   }
-  for (const fs::path& file : files_below(options_.output)) {
+  const auto files = files_below(options_.output);
+  ASSERT_FALSE(files.empty());
+  for (const fs::path& file : files) {
     const std::string bytes = read_text(options_.output / file);
     for (const std::string& secret : secrets)
       EXPECT_EQ(bytes.find(secret), std::string::npos) << file << " tells " << secret;

@@ -26,11 +26,12 @@ constexpr double kShade_m = 0.4;    // as far as leaves darken the soil and each
 constexpr int kPlaces = 17;         // along either side of the field, of its ground that is shown
 
 void validate(const PictureOptions& options) {
-  require_range(options.width_px, {256, kPictureSize_px.high}, "picture width");
-  require_range(options.height_px, kPictureSize_px, "picture height");
-  require_range(options.elevation_deg, {5, 90}, "camera elevation in degrees");
-  require_range(options.azimuth_deg, {-360, 360}, "camera azimuth in degrees");
-  require_range(options.margin_m, {0, 1e4}, "margin in metres");
+  using Options = PictureOptions;
+  require_range(options.width_px, Options::kWidth_px, "picture width");
+  require_range(options.height_px, Options::kHeight_px, "picture height");
+  require_range(options.elevation_deg, Options::kElevation_deg, "camera elevation in degrees");
+  require_range(options.azimuth_deg, Options::kAzimuth_deg, "camera azimuth in degrees");
+  require_range(options.margin_m, Options::kMargin_m, "margin in metres");
 }
 
 // The field's ground and its plots as high as the tallest plant.

@@ -6,17 +6,21 @@
 #include <vector>
 
 #include "core/plot_box.h"
+#include "core/range.h"
 #include "farm/farm.h"
 
 namespace plotscan::view {
 
 // What a picture of a farm shows. Every panel is seen from the same camera.
 struct PictureOptions {
-  int width_px = 1600;  // of the whole picture, 256 to 16384
+  static constexpr Range kWidth_px{256, 16384}, kHeight_px{64, 16384};
+  static constexpr Range kAzimuth_deg{-360, 360}, kElevation_deg{5, 90}, kMargin_m{0, 1e4};
+
+  int width_px = 1600;  // of the whole picture
   int height_px = 560;  // at most: it is lower where the field leaves room
   double azimuth_deg =
       -60;  // where the camera stands: counter-clockwise from east, seen from the field's centre
-  double elevation_deg = 35;           // of the camera over the horizon, 5 to 90
+  double elevation_deg = 35;           // of the camera over the horizon
   double margin_m = 1.5;               // shown around the plots
   std::size_t max_points = 3'000'000;  // of the cloud; evenly thinned beyond
 };

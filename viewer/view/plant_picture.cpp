@@ -36,7 +36,6 @@ namespace {
 
 constexpr double kHeightsShowUpTo_deg = 60;  // steeper, the scale counts metres of ground
 constexpr double kCreaseAngle_deg = 50;      // sharper edges are not shaded as round
-constexpr Range kPlantPictureSize_px{64, 8192};
 constexpr double kLeastTick_px = 30;
 constexpr int kLabelFont_px = 15;
 constexpr int kTickFont_px = 13;
@@ -44,11 +43,12 @@ constexpr int kTickFont_px = 13;
 constexpr double kLetter_px = 0.6 * kLabelFont_px;
 
 void validate(const std::vector<PicturedPlant>& plants, const PlantPictureOptions& options) {
-  require_range(options.width_px, kPlantPictureSize_px, "picture width");
-  require_range(options.height_px, kPlantPictureSize_px, "picture height");
-  require_range(options.elevation_deg, {0, 90}, "camera elevation in degrees");
-  require_range(options.azimuth_deg, {-360, 360}, "camera azimuth in degrees");
-  require_range(options.columns, {0, 1000}, "number of columns");
+  using Options = PlantPictureOptions;
+  require_range(options.width_px, Options::kWidth_px, "picture width");
+  require_range(options.height_px, Options::kHeight_px, "picture height");
+  require_range(options.elevation_deg, Options::kElevation_deg, "camera elevation in degrees");
+  require_range(options.azimuth_deg, Options::kAzimuth_deg, "camera azimuth in degrees");
+  require_range(options.columns, Options::kColumns, "number of columns");
   if (plants.empty()) throw InputError("there is no plant to draw");
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "core/range.h"
 #include "mesh/mesh.h"
 
 namespace plotscan::view {
@@ -12,11 +13,14 @@ namespace plotscan::view {
 // What a picture of plants side by side shows. They are seen in parallel projection, all at one
 // scale.
 struct PlantPictureOptions {
-  int width_px = 1600;  // of the whole picture, 64 to 8192
+  static constexpr Range kWidth_px{64, 8192}, kHeight_px = kWidth_px;
+  static constexpr Range kAzimuth_deg{-360, 360}, kElevation_deg{0, 90}, kColumns{0, 1000};
+
+  int width_px = 1600;  // of the whole picture
   int height_px = 700;
   double azimuth_deg = -60;   // where the camera stands: counter-clockwise from east
-  double elevation_deg = 10;  // of the camera over the horizon, 0 to 90
-  int columns = 0;            // plants in a row, up to 1000; 0: as many as makes them largest
+  double elevation_deg = 10;  // of the camera over the horizon
+  int columns = 0;            // plants in a row; 0: as many as makes them largest
 };
 
 // A plant with its name in the picture.

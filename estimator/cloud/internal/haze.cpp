@@ -20,6 +20,8 @@ constexpr double kHazeSlab_m = 0.5;
 constexpr std::ptrdiff_t kOutwards = 12;  // slabs, that crops of 3 m fill half of
 constexpr std::int32_t kBlock = 8;        // tiles to each side
 constexpr double kMostVoxelsAMetre = 10;
+constexpr std::size_t kMostAlone = 2;  // points in the cube of one that is alone
+constexpr double kColumnPoints = 60;   // in a square as wide as the cube
 
 using Profile = std::vector<std::uint32_t>;  // by slab
 using Block = std::pair<std::int32_t, std::int32_t>;
@@ -108,13 +110,12 @@ class Voxels {
 // A cloud's points, each in a slab over its tile's level.
 class Air {
  public:
-  Air(const TiledPoints& cloud, const HazeOptions& options)
+  Air(const TiledPoints& cloud, int threads)
       : cloud_(cloud),
-        options_(options),
         rows_(cloud.tiles),
-        slabs_(static_cast<std::ptrdiff_t>(std::ceil(2 * options.farthest_m / kHazeSlab_m)) + 1) {
-    for (const double level_m : tile_levels(cloud, rows_, options.threads))
-      bottom_m_.push_back(std::floor((level_m - options.farthest_m) / kHazeSlab_m) * kHazeSlab_m);
+        slabs_(static_cast<std::ptrdiff_t>(std::ceil(2 * kFarthest_m / kHazeSlab_m)) + 1) {
+    for (const double level_m : tile_levels(cloud, rows_, threads))
+      bottom_m_.push_back(std::floor((level_m - kFarthest_m) / kHazeSlab_m) * kHazeSlab_m);
     for (const Tile tile : cloud.tiles) west_ = std::min(west_, tile.x);
   }
 
@@ -136,9 +137,9 @@ class Air {
   // The tile's points that are alone in their cubes.
   Marked alone(std::size_t tile) const {
     const auto density_m2 = static_cast<double>(cloud_.size(tile));
-    const double voxels_m = std::round(3 * std::sqrt(density_m2 / options_.column_points));
+    const double voxels_m = std::round(3 * std::sqrt(density_m2 / kColumnPoints));
     const int a_metre = static_cast<int>(std::clamp(voxels_m, 1.0, kMostVoxelsAMetre));
-    if (9 * density_m2 / (a_metre * a_metre) < options_.column_points / 2) return {};
+    if (9 * density_m2 / (a_metre * a_metre) < kColumnPoints / 2) return {};
     Voxels voxels(corner_of(tile), static_cast<double>(slabs_) * kHazeSlab_m, a_metre);
     rows_.visit_around(tile, 1, [&](std::size_t other) {
       for (const Eigen::Vector3f& point : cloud_.of(other))
@@ -146,7 +147,7 @@ class Air {
     });
     Marked result;
     for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i)
-      if (voxels.around(voxels.middle_of(cloud_.points[i]), options_.alone) <= options_.alone)
+      if (voxels.around(voxels.middle_of(cloud_.points[i]), kMostAlone) <= kMostAlone)
         result.push_back(i);
     return result;
   }
@@ -160,14 +161,14 @@ class Air {
   }
 
   const TiledPoints& cloud_;
-  const HazeOptions& options_;
   TileRows rows_;
   std::ptrdiff_t slabs_;
   std::vector<double> bottom_m_;  // of each tile's air
   std::int32_t west_ = std::numeric_limits<std::int32_t>::max();
 };
 
-// For each block with lonely points: how many there are, by slab, in it and the 8 around it.
+// For each block with points that are alone: how many there are, by slab, in it and the 8 around
+// it.
 std::map<Block, Profile> profiles_of(const TiledPoints& cloud, const Air& air,
                                      const std::vector<Marked>& alone) {
   std::map<Block, Profile> own;
@@ -205,7 +206,7 @@ bool may_be_strays(double alone, double expected) {
   return expected > 0 && alone <= 2 * expected + 3 * std::sqrt(2 * expected);
 }
 
-// By slab: whether its lonely points are taken for strays.
+// By slab: whether its points that are alone are taken for strays.
 std::vector<char> hazy_slabs(const Profile& alone) {
   const auto slabs = static_cast<std::ptrdiff_t>(alone.size());
   std::vector<char> result(alone.size(), 0);
@@ -226,12 +227,11 @@ std::vector<char> hazy_slabs(const Profile& alone) {
 
 }  // namespace
 
-std::size_t drop_haze(TiledPoints& cloud, const HazeOptions& options) {
+std::size_t drop_haze(TiledPoints& cloud, int threads) {
   if (cloud.points.empty()) return 0;
-  const Air air(cloud, options);
+  const Air air(cloud, threads);
   std::vector<Marked> marked(cloud.tiles.size());
-  for_each_index(marked.size(), options.threads,
-                 [&](std::size_t tile) { marked[tile] = air.alone(tile); });
+  for_each_index(marked.size(), threads, [&](std::size_t tile) { marked[tile] = air.alone(tile); });
   std::map<Block, std::vector<char>> hazy;
   for (const auto& [block, alone] : profiles_of(cloud, air, marked))
     hazy[block] = hazy_slabs(alone);

@@ -14,6 +14,9 @@ namespace plotscan::cloud {
 namespace {
 
 constexpr double kSlab_m = 0.5;
+constexpr double kLonelyMargin_m = 0.5;
+constexpr std::size_t kLonelyPoints = 4;
+constexpr double kLonelyShare = 0.002;
 constexpr int kSupportReach = 1;  // tiles to each side, and slabs
 constexpr int kExtentReach = 7;   // tiles to each side
 constexpr double kNowhere = std::numeric_limits<double>::infinity();
@@ -23,10 +26,10 @@ int slab_of(double z_m) { return static_cast<int>(std::floor(z_m / kSlab_m)); }
 // The points of a field as columns of slabs over its tiles.
 class Columns {
  public:
-  Columns(const TiledPoints& cloud, const OutlierOptions& options)
-      : cloud_(cloud), options_(options), rows_(cloud.tiles) {
-    for (const double level : tile_levels(cloud, rows_, options.threads))
-      first_slab_.push_back(slab_of(level - options.farthest_m));
+  Columns(const TiledPoints& cloud, int threads)
+      : cloud_(cloud), threads_(threads), rows_(cloud.tiles) {
+    for (const double level : tile_levels(cloud, rows_, threads))
+      first_slab_.push_back(slab_of(level - kFarthest_m));
     count_slabs();
   }
 
@@ -36,8 +39,8 @@ class Columns {
     const bool any_lonely = contains(lonely, 1);
     if (!any_lonely && within_[tile] == cloud_.size(tile)) return {};
     const Extent extent = any_lonely ? extent_around(tile) : Extent{};
-    const double low_m = extent.low_m - options_.lonely_margin_m;
-    const double high_m = extent.high_m + options_.lonely_margin_m;
+    const double low_m = extent.low_m - kLonelyMargin_m;
+    const double high_m = extent.high_m + kLonelyMargin_m;
     Marked result;
     for (std::size_t i = cloud_.begin[tile]; i < cloud_.begin[tile + 1]; ++i) {
       const double z_m = cloud_.points[i].z();
@@ -50,7 +53,7 @@ class Columns {
   // Calls work(tile) for all tiles.
   template <class Work>
   void for_each(const Work& work) const {
-    for_each_index(cloud_.tiles.size(), options_.threads, work);
+    for_each_index(cloud_.tiles.size(), threads_, work);
   }
 
  private:
@@ -67,7 +70,7 @@ class Columns {
   }
 
   void count_slabs() {
-    slabs_ = static_cast<std::size_t>(std::ceil(2 * options_.farthest_m / kSlab_m)) + 1;
+    slabs_ = static_cast<std::size_t>(std::ceil(2 * kFarthest_m / kSlab_m)) + 1;
     counts_.assign(slabs_ * cloud_.tiles.size(), 0);
     within_.assign(cloud_.tiles.size(), 0);
     for_each([&](std::size_t tile) {
@@ -100,8 +103,8 @@ class Columns {
           near += counts_[other * slabs_ + static_cast<std::size_t>(index)];
       }
     });
-    return near <= options_.lonely_points &&
-           static_cast<double>(near) <= options_.lonely_share * static_cast<double>(over);
+    return near <= kLonelyPoints &&
+           static_cast<double>(near) <= kLonelyShare * static_cast<double>(over);
   }
 
   // Lowest and highest height, metres, of the slabs around a tile with points that are not lonely.
@@ -123,7 +126,7 @@ class Columns {
   }
 
   const TiledPoints& cloud_;
-  const OutlierOptions& options_;
+  int threads_;
   TileRows rows_;
   std::vector<int> first_slab_;  // of each tile's column
   std::size_t slabs_ = 0;        // of a column
@@ -133,11 +136,11 @@ class Columns {
 
 }  // namespace
 
-std::size_t drop_outliers(TiledPoints& cloud, const OutlierOptions& options) {
+std::size_t drop_outliers(TiledPoints& cloud, int threads) {
   if (cloud.points.empty()) return 0;
   std::vector<Marked> outliers(cloud.tiles.size());
   {
-    const Columns columns(cloud, options);
+    const Columns columns(cloud, threads);
     columns.for_each([&](std::size_t tile) { outliers[tile] = columns.outliers(tile); });
   }
   return take_out(cloud, outliers);

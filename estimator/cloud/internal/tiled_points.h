@@ -52,6 +52,10 @@ class TileRows {
   std::vector<std::size_t> rows_;  // first tile of each row of tiles; one more ends the last
 };
 
+// Greatest distance of a field's points from their tile's level. Farther points are trees, birds,
+// clouds, mirror images.
+inline constexpr double kFarthest_m = 10;
+
 // Each tile's level, metres: the median, over the tiles at most 2 away, of the median height of a
 // sample of their points.
 std::vector<double> tile_levels(const TiledPoints& cloud, const TileRows& rows, int threads);

@@ -81,10 +81,11 @@ double reached_m(const PlotPoints& plot, const Middle& middle, int side) {
     ++all[strip];
     if (point.z() > middle.own_top_m) ++above[strip];
   }
+  const auto is_reached = [&](std::size_t strip) {
+    return static_cast<double>(above[strip]) > kMostAbove * static_cast<double>(all[strip]);
+  };
   std::size_t reached = 0;
-  while (reached<strips&& static_cast<double>(above[reached])> kMostAbove *
-         static_cast<double>(all[reached]))
-    ++reached;
+  while (reached < strips && is_reached(reached)) ++reached;
   return std::min(inset_m, kReachStrip_m * static_cast<double>(reached));
 }
 

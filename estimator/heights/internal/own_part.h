@@ -15,9 +15,9 @@ struct OwnPart {
 };
 
 // The own part of each plot, in their order. At a side where another plot ends within 0.6 m whose
-// canopy is taller, strips of 10 cm are left out, from the side on, as long as more than 3 % of
-// their returns lie above 99 % of those in the plot's middle. The middle, all that is farther than
-// half a metre or a third of the plot from its sides, is always kept. Own choice,
+// canopy is taller by 5 cm, strips of 10 cm are left out, from the side on, as long as more than
+// 3 % of their returns lie above 99 % of those in the plot's middle. The middle, all that is
+// farther than half a metre or a third of the plot from its sides, is always kept. Own choice,
 // docs/plot-heights.md.
 std::vector<OwnPart> own_parts(std::span<const PlotPoints> plots, int threads);
 

@@ -15,8 +15,8 @@
 namespace plotscan::terrain {
 
 // The Delaunay triangulation of points in the plane: triples of indices, counter-clockwise, in an
-// order that depends on the points alone. Of equal points one is used. Exact
-// predicates (CGAL): no crossing edges, whatever the points.
+// order that depends on the points alone. Of equal points one is used. Exact predicates (CGAL): no
+// crossing edges, whatever the points.
 std::vector<std::array<std::uint32_t, 3>> delaunay_triangles(
     const std::vector<Eigen::Vector2d>& points);
 

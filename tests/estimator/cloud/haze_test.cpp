@@ -36,7 +36,7 @@ Points haze(double density, std::uint64_t seed) {
 
 std::size_t dropped_as_haze(const Points& points) {
   TiledPoints cloud = tiled(points);
-  return drop_haze(cloud, {.threads = 2});
+  return drop_haze(cloud, 2);
 }
 
 bool stands_out(const Eigen::Vector3f& point) {
@@ -51,7 +51,7 @@ TEST(Haze, IsTakenOutAndNothingElse) {
     const Points stray = haze(density, 1);
     points.insert(points.end(), stray.begin(), stray.end());
     TiledPoints cloud = tiled(points);
-    const std::size_t taken = drop_haze(cloud, {.threads = 2});
+    const std::size_t taken = drop_haze(cloud, 2);
     const auto out = static_cast<double>(std::ranges::count_if(stray, stands_out));
     EXPECT_LT(static_cast<double>(std::ranges::count_if(cloud.points, stands_out)), 0.02 * out)
         << density;
@@ -86,7 +86,7 @@ TEST(Haze, LeavesTheGroundUnderAClosedCanopy) {
     const Points stray = haze(density, 2);
     points.insert(points.end(), stray.begin(), stray.end());
     TiledPoints cloud = tiled(points);
-    EXPECT_GT(drop_haze(cloud, {.threads = 2}), stray.size() / 2);
+    EXPECT_GT(drop_haze(cloud, 2), stray.size() / 2);
     EXPECT_GT(static_cast<double>(std::ranges::count_if(cloud.points, low)),
               0.95 * static_cast<double>(ground.size()));
   }
@@ -101,8 +101,8 @@ TEST(Haze, LeavesNoEmptyTiles) {
     for (float z = -4; z < 8; z += 0.11F) points.emplace_back(static_cast<float>(x), 31.5F, z);
   TiledPoints one = tiled(points);
   TiledPoints two = one;
-  drop_haze(one, {.threads = 1});
-  drop_haze(two, {.threads = 2});
+  drop_haze(one, 1);
+  drop_haze(two, 2);
   EXPECT_EQ(one.points, two.points);
   for (std::size_t tile = 0; tile < one.tiles.size(); ++tile) EXPECT_GT(one.size(tile), 0u);
 }

@@ -13,7 +13,7 @@ namespace {
 
 std::size_t dropped(const Points& points) {
   TiledPoints cloud = tiled(points);
-  return drop_outliers(cloud, {.threads = 2});
+  return drop_outliers(cloud, 2);
 }
 
 // What is there stays: nothing else would do on any of these.
@@ -55,7 +55,7 @@ TEST(Outliers, FarAboveAndBelowAreDropped) {
     const std::size_t real = points.size();
     for (const float z : {-40.0f, -11.0f, 18.0f, 300.0f, 1e6f}) points.emplace_back(15.2f, 7.7f, z);
     TiledPoints cloud = tiled(points);
-    EXPECT_EQ(drop_outliers(cloud, {}), 5u);
+    EXPECT_EQ(drop_outliers(cloud, 1), 5u);
     ASSERT_EQ(cloud.points.size(), real);
     EXPECT_EQ(cloud.begin.back(), real);
     for (std::size_t tile = 0; tile < cloud.tiles.size(); ++tile)
@@ -80,8 +80,8 @@ TEST(Outliers, AreTheSameForAnyNumberOfThreads) {
   points.insert(points.end(), stray.begin(), stray.end());
   TiledPoints one = tiled(points);
   TiledPoints two = one;
-  EXPECT_GT(drop_outliers(one, {.threads = 1}), 100u);
-  drop_outliers(two, {.threads = 2});
+  EXPECT_GT(drop_outliers(one, 1), 100u);
+  drop_outliers(two, 2);
   EXPECT_EQ(one.points, two.points);
   EXPECT_EQ(one.begin, two.begin);
 }

@@ -41,7 +41,9 @@ Field domes(int plots, double scale = 1, int returns = 18'000) {
 
 TEST(MeasureHeights, NamesAllHeightsInTheirOrder) {
   for (const bool calibrated : {true, false}) {
-    for (const PlotHeights& plot : domes(4).measured(calibrated)) {
+    const std::vector<PlotHeights> plots = domes(4).measured(calibrated);
+    ASSERT_FALSE(plots.empty());
+    for (const PlotHeights& plot : plots) {
       const auto value = [&](const char* name) { return plot.heights.at(name).value_m; };
       EXPECT_EQ(plot.heights.size(), 8);
       EXPECT_LT(value("mean"), value("p95"));
@@ -85,7 +87,10 @@ TEST(MeasureHeights, IsTheSameForAnyNumberOfThreads) {
   const Field field = domes(6);
   const std::vector<PlotHeights> one = field.measured(true, 1);
   const std::vector<PlotHeights> three = field.measured(true, 3);
+  ASSERT_FALSE(one.empty());
+  ASSERT_EQ(three.size(), one.size());
   for (std::size_t i = 0; i < one.size(); ++i) {
+    ASSERT_EQ(one[i].heights.size(), 8);
     for (const auto& [name, height] : one[i].heights) {
       EXPECT_EQ(height.value_m, three[i].heights.at(name).value_m);
       EXPECT_EQ(height.standard_error_m, three[i].heights.at(name).standard_error_m);
@@ -199,7 +204,9 @@ TEST(MeasureHeights, FlagsPlantsUnlikeThoseKnown) {
 
 // Without calibration the standard errors are shares of the top, known here: some over 2.5 cm.
 TEST(MeasureHeights, FlagsEachHeightWhoseIntervalIsWide) {
-  for (const PlotHeights& plot : domes(4).measured(false)) {
+  const std::vector<PlotHeights> plots = domes(4).measured(false);
+  ASSERT_FALSE(plots.empty());
+  for (const PlotHeights& plot : plots) {
     EXPECT_THAT(plot.flags, Contains("mean height is unsure by centimetres"));
     EXPECT_THAT(plot.flags, Not(Contains("canopy_p99 height is unsure by centimetres")));
     for (const auto& [name, height] : plot.heights)

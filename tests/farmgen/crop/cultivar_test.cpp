@@ -91,10 +91,12 @@ TEST(Cultivar, RefusesAUsersFileThatDoesNotFit) {
               HasSubstr("parameters.nodes.value is given by each stage: set it under stages"));
   EXPECT_THAT(message("crop: reed\nparameters: {angle_deg: {unit: rad}}\n"),
               HasSubstr("is deg, not rad"));
-  EXPECT_THAT(message("crop: reed\nstages: [{name: R9}]\n"), HasSubstr("is not a stage of reed"));
+  EXPECT_THAT(message("crop: reed\nstages: [{name: R9}]\n"),
+              HasSubstr("\"R9\" is not a stage of reed, which has short, tall"));
   EXPECT_THAT(message("crop: reed\nstages: [{name: tall, values: {nodes: 4.5}}]\n"),
               HasSubstr("nodes is to be a whole number in [1, 20]"));
-  EXPECT_THAT(message("crop: reed\ncolours: {petal: [1, 0, 0]}\n"), HasSubstr("not a material"));
+  EXPECT_THAT(message("crop: reed\ncolours: {petal: [1, 0, 0]}\n"),
+              HasSubstr("petal is not a material of reed, which has leaf, stem"));
   EXPECT_THAT(message("crop: reed\ncolours: {leaf: [1, 0, 2]}\n"),
               HasSubstr("[1, 0, 2] is not 3 numbers in [0, 1]"));
 }

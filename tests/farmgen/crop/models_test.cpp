@@ -84,6 +84,7 @@ TEST_P(ShippedModels, AreAsTheirDescriptionSays) {
 }
 
 TEST_P(ShippedModels, StandWithinThePublishedHeights) {
+  ASSERT_EQ(description()["models"].size(), 5u);
   for (const auto& model : description()["models"]) {
     const Range published =
         stage_facts(GetParam(), model["stage"].as<std::string>()).stage.height_m;

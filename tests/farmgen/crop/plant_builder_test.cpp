@@ -121,6 +121,7 @@ TEST(PlantBuilder, ABladeFacesUpFromLeftToRightAndFoldsUpward) {
     PlantBuilder plant = builder(detail);
     plant.blade(flat, "leaf");
     const Mesh mesh = plant.take(true);
+    ASSERT_FALSE(mesh.triangles.empty());
     for (const auto& [a, b, c] : mesh.triangles) {
       const Eigen::Vector3f ab = mesh.vertices[b] - mesh.vertices[a];
       EXPECT_GT(ab.cross(mesh.vertices[c] - mesh.vertices[a]).z(), 0);

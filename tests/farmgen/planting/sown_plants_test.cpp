@@ -76,6 +76,7 @@ TEST(SownPlants, HeightsAreOfATruncatedNormalOfTheirCultivar) {
   const double density = std::exp(-4.5) / std::sqrt(2 * std::numbers::pi);
   const double narrower = std::sqrt(1 - 6 * density / std::erf(3 / std::sqrt(2.0)));
   const std::map<std::string, Moments> expected = {{"tall", {1.1, 0.12}}, {"short", {0.6, 0.05}}};
+  ASSERT_EQ(heights.size(), expected.size());
   for (const auto& [name, values] : heights) {
     ASSERT_EQ(values.size(), 2000u);
     const Moments drawn = moments_of(values);

@@ -349,5 +349,29 @@ TEST(RosBag, CompressedByRosbag) {
               HasSubstr("compressed by bz2"));
 }
 
+// As all parts of a bag are written: their length in 4 bytes, the lowest first, before them.
+std::string with_length(const std::string& bytes) {
+  std::string length(4, '\0');
+  for (std::size_t i = 0; i < 4; ++i) length[i] = static_cast<char>(bytes.size() >> (8 * i));
+  return length + bytes;
+}
+
+// A bag of nothing but its header.
+TEST(RosBag, EncryptedOrNotClosedSaysWhatMendsIt) {
+  const TemporaryFolder folder;
+  const auto message = [&](const std::string& encryptor, char index_at) {
+    const std::string fields =
+        with_length("op=\x03") +
+        with_length("index_pos=" + std::string(1, index_at) + std::string(7, '\0')) +
+        with_length("encryptor=" + encryptor);
+    const fs::path bag =
+        folder.write("a.bag", "#ROSBAG V2.0\n" + with_length(fields) + with_length("   "));
+    return message_of<InputError>([&] { read_all(bag); });
+  };
+  EXPECT_THAT(message("rosbag/AesCbcEncryptor", 1), HasSubstr("is encrypted; `rosbag decrypt`"));
+  EXPECT_THAT(message("", 0), HasSubstr("was not closed; `rosbag reindex`"));
+  EXPECT_THAT(message("", 1), HasSubstr("holds no clouds"));
+}
+
 }  // namespace
 }  // namespace plotscan::record

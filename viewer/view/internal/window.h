@@ -13,8 +13,6 @@ class vtkRenderWindow;
 
 namespace plotscan::view {
 
-inline constexpr Range kPictureSize_px{64, 16384};
-
 // Pixels drawn each way for one of a drawing, so that awns and thin stems show.
 inline constexpr int kSamples = 2;
 

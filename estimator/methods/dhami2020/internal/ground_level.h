@@ -19,9 +19,9 @@ struct GroundLevel {
 
 // Levels the map, so that its ground is near z = 0 as section IV-B assumes of its own: the plane of
 // least absolute deviations through the lowest point of each cell of 1 m, then raised from under
-// the range noise to the mean of the points about it. As long as fewer than
-// half of the cells are closed by canopy, it lies on the ground of a flat field; on rolling ground
-// it halves the cells. `points` are voxel-filtered and not empty.
+// the range noise to the mean of the points about it. As long as fewer than half of the cells are
+// closed by canopy, it lies on the ground of a flat field; on rolling ground half of the cells'
+// lowest points lie below it. `points` are voxel-filtered and not empty.
 GroundLevel fit_ground_level(std::span<const Eigen::Vector3f> points);
 
 }  // namespace plotscan::methods::dhami2020

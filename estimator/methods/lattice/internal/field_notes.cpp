@@ -52,8 +52,8 @@ std::string why_none(const std::string& by_plots, double density_m2, double nois
   if (noise_m > kRough_m)
     why += fmt::format(
         "; the ground's returns scatter by {:.1f} cm, which hides canopy: the ground was "
-        "removed, strips lie apart in height, or noise",
-        100 * noise_m);
+        "removed, strips lie apart in height, or noise{}",
+        100 * noise_m, options.noise_m ? "" : "; if strips lie apart, give the sensor's --noise");
   return density_m2 < cloud::kPlotsFound_m2 ? too_few("plots") + " (" + why + ")" : why;
 }
 

@@ -68,7 +68,8 @@ class BagReader {
 
  private:
   void require_finished(const HeaderFields& header) const {
-    if (!header.text_or("encryptor", "").empty()) throw InputError("is encrypted");
+    if (!header.text_or("encryptor", "").empty())
+      throw InputError("is encrypted; `rosbag decrypt` makes a bag that can be read");
     const auto index_at = header.number<std::uint64_t>("index_pos");
     if (index_at == 0) throw InputError("was not closed; `rosbag reindex` mends it");
   }
