@@ -268,8 +268,7 @@ std::vector<std::vector<std::size_t>> FieldBlocks::large_patches(
   return large;
 }
 
-std::vector<bool> FieldBlocks::marked_in(
-    std::span<const std::vector<std::size_t>> patches) const {
+std::vector<bool> FieldBlocks::marked_in(std::span<const std::vector<std::size_t>> patches) const {
   std::vector<bool> marked(facts_.size());
   for (const std::vector<std::size_t>& patch : patches)
     for (const std::size_t number : patch) marked[number] = true;

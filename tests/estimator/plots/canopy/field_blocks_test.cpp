@@ -112,6 +112,24 @@ TEST(FieldBlocks, ClosedFollowsOn) {
   }
 }
 
+// A crop of 20 x 9 m, and south of it 10 x 9 m of plots whose gaps leaves close.
+TEST(FieldBlocks, ClosedIsTheLargestPatchAloneToo) {
+  const FieldBlocks blocks(
+      returns_over(20, 24, [](double x, double y) { return y > 15 || (y < 9 && x < 10); }),
+      kSigma_m, 2);
+  const std::vector<std::vector<bool>> closed = blocks.closed();
+  ASSERT_EQ(closed.size(), 4U);
+  const auto in_plots = [](const Eigen::Vector2d& at) { return at.y() < 9 && at.x() < 10; };
+  const auto in_crop = [](const Eigen::Vector2d& at) { return at.y() > 15; };
+  for (std::size_t number = 0; number < blocks.facts().size(); ++number) {
+    const Eigen::Vector2d at = blocks.middle_of(number);
+    if (!in_plots(at) && !in_crop(at)) continue;
+    EXPECT_TRUE(closed[0][number] && closed[1][number]) << at.transpose();
+    EXPECT_EQ(closed[2][number], in_crop(at)) << at.transpose();
+    EXPECT_EQ(closed[3][number], in_crop(at)) << at.transpose();
+  }
+}
+
 TEST(FieldBlocks, BareGroundHasNoCrop) {
   EXPECT_TRUE(crop_tops_m(field_of(0)).empty());
   EXPECT_TRUE(FieldBlocks({}, kSigma_m, 2).closed().empty());
